@@ -1,6 +1,7 @@
-# make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
+# make demo: set up and reproduce the paper.  make test: set up and run the tests, in five minutes (make test-slow: the slow
+# ones; make test-all: all, with the long ones, which take minutes each).
 # make quick: the tests that an edit can break.  make app: the page in the browser.
-.PHONY: app demo test test-all quick quick-map lint types layers js docs pages bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check \
+.PHONY: app demo test test-slow test-all quick quick-map lint types layers js docs pages bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check \
 	screenshots dist release trials workflows clean
 
 .DEFAULT_GOAL := demo
@@ -60,11 +61,15 @@ test: $(READY)
 quick: $(READY)
 	@$(BIN)/python tools/mutation/quick.py --since $(or $(SINCE),HEAD) --seconds $(or $(SECONDS),40)
 
+# what takes more than a second or two: browsers, every page and command of the docs, the API by its own description
+test-slow: $(READY)
+	$(BIN)/pytest -m "slow and not long"
+
 quick-map: $(READY)
 	$(BIN)/python tools/mutation/quick.py --measure
 
 test-all: $(READY)
-	$(BIN)/pytest -m "long or not long" --hypothesis-profile=long
+	$(BIN)/pytest -m "slow or not slow" --hypothesis-profile=long
 
 lint: $(READY)
 	$(BIN)/ruff format --check .
@@ -92,12 +97,13 @@ js: $(READY) $(NODE_READY)
 pages: $(READY)
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/writer/write.py $(if $(CHECK),--check) $(if $(UNLESS_STAMPED),--unless-stamped) $(PAGE)
 
-# into out/docs, with the static page beside it, which takes most of the time
+# into out/docs, with the static page beside it, which takes most of the time, and out/cheat_sheet.pdf
 # What is written while a build goes on is not whole: out/docs/.built stands from its end to the next
 docs: $(READY)
 	@rm -f out/docs/.built
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
 	@touch out/docs/.built
+	$(BIN)/python docs/make_cheat_sheet.py out/cheat_sheet.pdf
 	$(BIN)/python -m pytest -q -n 0 -k built tests/docs/test_links.py
 
 readme: $(READY)

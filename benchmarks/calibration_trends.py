@@ -1,6 +1,6 @@
 """Ratios of the model by size of the screw, and of laws that could be in its place: tables of ``fit_calibration.py``.
 
-What decision 14 says of share laws comes from here. No number is fitted.
+What decision 3 says of share laws comes from here. No number is fitted.
 """
 
 from __future__ import annotations
@@ -15,23 +15,22 @@ import numpy as np
 from ballscrew.evidence.validation.entries import Conditions, Point, Values, trends
 from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
-from ballscrew.physics.components.chain_force import ChainBallForce
-from ballscrew.physics.components.conditions import ContactConditions
-from ballscrew.physics.components.film_laws import Inlet, flooded_inlet
-from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force, two_neighbours
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import (
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.calibrations import calibrated, calibrations
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.ball_chain import ChainBallForce, ProportionalBallForce, imposed_ball_force, two_neighbours
+from ballscrew.physics.laws.conditions import ContactConditions
+from ballscrew.physics.laws.friction import (
     BalanSharing,
     GreenwoodTrippSharing,
     LoadSharing,
     RunInSharing,
     arana_traction,
 )
-from ballscrew.physics.components.nut_losses import ReturnBraking, ShearedOil, SpinUp
-from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction.calibrations import calibrated, calibrations
-from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.inlet import Inlet, flooded_inlet
+from ballscrew.physics.laws.nut_losses import ReturnBraking, ShearedOil, SpinUp
 from ballscrew.questions.validate import compute as validation
 
 #: The sets that the calibrations are fitted to, and a column of each that is a maximum and no band.

@@ -33,13 +33,13 @@ from scipy.optimize import least_squares
 import ballscrew
 from ballscrew.evidence.validation.entries import Conditions, Entry, Point
 from ballscrew.evidence.validation.sets import SETS
-from ballscrew.physics.components.laws import two_neighbours
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import LoadSharing, RunInSharing
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import PARAMETERS, with_parameters
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.ball_chain import two_neighbours
+from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
 from ballscrew.questions.validate import compute as validation
 from calibration_trends import CLASSES, FITTED, changes_table, strata_table, trends_table
 from maker_calibrations import DECLARED_ROWS, line_of

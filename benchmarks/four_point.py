@@ -19,11 +19,11 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))  # the contact integral is an oracle of theirs
 
 import ballscrew as bs
-from ballscrew.physics.components.conditions import Motion
-from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.equations import transmission
 from ballscrew.physics.friction.balls import ball_contacts
 from ballscrew.physics.friction.validity import LARGEST_PRESSURE
+from ballscrew.physics.laws.conditions import Motion
+from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers.four_point_slip import FlankPair, FourPointBall, FourPointSlip, four_point_slip
 from oracles.contact_integral import contact_integral
 from oracles.tractions import Coulomb

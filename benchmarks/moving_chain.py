@@ -19,8 +19,8 @@ import numpy as np
 
 import ballscrew as bs
 from ballscrew.compiler.kernels.kernel import available
-from ballscrew.physics.components.chain_force import WALL_FACTOR, ChainBallForce
 from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.laws.ball_chain import WALL_FACTOR, ChainBallForce
 from ballscrew.physics.moving_balls.chain import MovingChain, chain_run, circuit_of
 from ballscrew.physics.moving_balls.loaded_zone import loaded_zone
 from timing import seconds

@@ -23,11 +23,11 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))  # the contact integral is an oracle of theirs
 
 import ballscrew as bs
-from ballscrew.physics.components.laws import ProportionalBallForce
-from ballscrew.physics.components.mixed_friction import ZhouHoeprich
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import LARGEST_PRESSURE
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce
+from ballscrew.physics.laws.friction import ZhouHoeprich
 from ballscrew.physics.solvers import strips
 from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.pure_rolling import curvature_slip

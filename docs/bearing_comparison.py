@@ -19,9 +19,9 @@ from matplotlib.figure import Figure
 from ballscrew.axis.supports.bearing import SupportBearing
 from ballscrew.axis.supports.makers_bearing import SKFBearing
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import LoadSharing, RunInSharing
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
 from ballscrew.questions.shared import chart_files as files
 from ballscrew.questions.shared import charts
 

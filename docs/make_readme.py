@@ -1,4 +1,4 @@
-"""Write what the program produces into README, page on agreement and first steps: tables, outputs, the picture.
+"""Write what the program produces into README, page on agreement and first steps: tables and outputs.
 
 ``python docs/make_readme.py`` (or ``make readme``) rewrites them in place.
 """
@@ -12,20 +12,16 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ballscrew.questions.reproduce.reproduction import claims_table
-from ballscrew.questions.shared import charts
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tests")]
 
 from accuracy_table import short_table  # noqa: E402  (after the path of its folder)
-from effect_study import effect_figures as figures  # noqa: E402  (likewise)
 from effect_study.cases import PAPER  # noqa: E402  (likewise)
 from effect_tables import light_load_words, sensitivity_table  # noqa: E402  (likewise)
 from validation_tables import agreement_table, vendors_in_words, vendors_table  # noqa: E402  (likewise)
 
 README, AGREEMENT, START = HERE.parent / "README.md", HERE / "agreement.md", HERE / "start.md"
-IMAGES = HERE / "images"
-PICTURE = "effects_parts_over_speed"
 
 
 def with_block(text: str, name: str, block: str) -> str:
@@ -62,7 +58,7 @@ def with_light_load(text: str) -> str:
 
 
 def with_agreement(text: str) -> str:
-    """The page with the current comparison in five rows; takes a few seconds."""
+    """The page with the current comparison in seven rows; takes a few seconds."""
     return with_block(text, "agreement", agreement_table())
 
 
@@ -97,12 +93,7 @@ def main() -> None:
         for part in parts:
             text = part(text)
         page.write_text(text, encoding="utf-8")
-    IMAGES.mkdir(exist_ok=True)
-    plot = next(plot for plot in figures.PLOTS if plot.name == PICTURE)
-    with charts.house_style():
-        charts.save(plot.draw(figures.drawn_cases()), IMAGES, "parts_over_speed")
-    (IMAGES / "parts_over_speed.svg").unlink()
-    print(*WRITTEN, *IMAGES.iterdir(), sep="\n")
+    print(*WRITTEN, sep="\n")
 
 
 if __name__ == "__main__":

@@ -57,7 +57,7 @@ def of_run(degrees: float) -> Answers:
 def of_duty(degrees: float) -> Answers:
     """Torque of the motor and energy lost over a cycle."""
     report = duty(_vertical_axis(degrees))
-    full = report.full_bath
+    full = report.bath.numbers
     return {
         "duty, torque": Cell(report.numbers["torque_peak"], full["torque_peak"]),
         "duty, energy lost": Cell(report.numbers["energy_lost"], full["energy_lost"], "J"),

@@ -13,9 +13,9 @@ from matplotlib.patches import Arc, Circle, Ellipse
 
 import theory_screw_figures
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.equations import film, geometry, hertz, kinematics, rheology, rolling
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
+from ballscrew.physics.laws.friction import LoadSharing
 from ballscrew.questions.shared import charts
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, Case
 from effect_study.effect_figures import SPEED, case_caption, mathtext, titled

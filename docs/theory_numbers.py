@@ -7,10 +7,10 @@ import math
 
 import ballscrew as bs
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import arana_traction
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.equations import friction, hertz, kinematics, preload, transmission
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.friction import arana_traction
 from effect_study.cases import CASES, CATALOGUE, PAPER
 
 REFERENCE = FrictionModel.reference()

@@ -9,6 +9,7 @@ import textwrap
 from pathlib import Path
 
 from accuracy_table import printed
+from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Table
 from ballscrew.basis.output.sheet import words as written
 from ballscrew.evidence.validation.entries import DESCRIPTORS, Conditions, trends
@@ -194,24 +195,34 @@ def vendors_table() -> str:
 
 
 def agreement_table() -> str:
-    """The comparison in five rows, without calibration, for the README."""
+    """Who states what, what the model gives there without calibration, and the ratio, for the README."""
     of = {entries[0].data.name: entries[0] for entries in found()[1]}
     stock, screws = of["hiwin-stock"].groups, of["xjtu"]
-    rows = {
-        "Rexroth's tables: no-load torque of double nuts": [of["rexroth-double-nut"]],
-        "HIWIN's stock list: drag torque of double nuts; of nuts with an offset (preload assumed as 7 %)": [
-            stock["double"],
-            stock["offset"],
-        ],
-        "THK's worked example: no-load torque of a double nut": [of["thk-jis"]],
-        "measured: rolling torque of balls between rings; torque of two new screws whose size is not stated "
-        f"(XJTU): {len(screws.counted)} catalogue screws that could be these": [of["balan-2015"], screws],
-        "Rexroth's tables: rigidity of preloaded double nuts": [of["rexroth-rigidity"]],
-    }
-    lines = [["compared with", "values", "model / stated value"], ["---"] * 3]
-    for words, entries in rows.items():
-        lines.append([words, "; ".join(str(len(one.counted)) for one in entries), "; ".join(map(_spread, entries))])
+    rows = [
+        ("Rexroth, tables", "no-load torque of {} double nuts", of["rexroth-double-nut"]),
+        ("HIWIN, stock list", "drag torque of {} double nuts, preload assumed as 7 %", stock["double"]),
+        ("HIWIN, stock list", "drag torque of {} nuts with an offset, preload assumed as 7 %", stock["offset"]),
+        ("THK, worked example", "no-load torque of a double nut", of["thk-jis"]),
+        ("Balan 2015, measured", "rolling torque of balls between rings, {} states", of["balan-2015"]),
+        ("XJTU, measured", "two new screws of a size not stated; ours: {} that could be these", screws),
+        ("Rexroth, tables", "rigidity of {} preloaded double nuts", of["rexroth-rigidity"]),
+    ]
+    lines = [["who stated it", "what", "stated", "ours", "ratio"], ["---"] * 5]
+    for who, what, entry in rows:
+        quantity = entry.data.quantity
+        ends = [(point.band.low, point.band.high) for point in entry.counted if entry.data.alternatives]
+        stated = [end for pair in ends for end in pair] or [point.band.middle for point in entry.counted]
+        ours = [point.value for point in entry.counted]
+        words = [_from_to(stated, quantity), _from_to(ours, quantity), _spread(entry)]
+        lines.append([who, what.format(len(entry.counted)), *words])
     return _table(lines)
+
+
+def _from_to(values, quantity) -> str:
+    """The least and the greatest of some values with their unit."""
+    low, high = (units.rounded(value, quantity, 2) for value in (min(values), max(values)))
+    span = low if low == high else f"{low} to {high}"
+    return f"{span} {units.symbol(units.label(quantity))}"
 
 
 def _lines_of_vendors():

@@ -13,16 +13,9 @@ from benchmarks.loads import KINDS, Draw, draw
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.physics.components.nut_losses import (
-    Churning,
-    HarrisChurning,
-    LipSeals,
-    ParasiticLaw,
-    Recirculation,
-    Seals,
-)
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.nut_losses import Churning, HarrisChurning, LipSeals, ParasiticLaw, Recirculation, Seals
+from ballscrew.physics.laws.traits import traits_of
 from support.strategies import MODELS, RPM
 
 COUNT, SECONDS = 2_000, 60.0

@@ -14,14 +14,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.evidence.papers.olaru2005 import case as paper
-from ballscrew.physics.components.film_laws import Inlet
-from ballscrew.physics.components.laws import ProportionalBallForce
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import LoadSharing, RunInSharing
-from ballscrew.physics.components.rolling_laws import houpert_rolling
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce
+from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
+from ballscrew.physics.laws.inlet import Inlet
+from ballscrew.physics.laws.rolling import houpert_rolling
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.slip import BallProblem, Slip

@@ -10,18 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.physics.components.laws import RollingLaw
-from ballscrew.physics.components.mixed_friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
-from ballscrew.physics.components.rolling_laws import (
-    aihara_rolling,
-    biboulet_houpert_rolling,
-    houpert_rolling,
-    olaru_rolling,
-)
 from ballscrew.physics.equations import mixed_lubrication, slip
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import SMALLEST_ELASTIC_REGIME_PARAMETER
+from ballscrew.physics.laws.friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
+from ballscrew.physics.laws.protocols import RollingLaw
+from ballscrew.physics.laws.rolling import aihara_rolling, biboulet_houpert_rolling, houpert_rolling, olaru_rolling
 from ballscrew.physics.solvers.line_slip import pure_rolling_lines
 from effect_study.cases import DECAYS, PAPER, RPM, Case
 

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, Nut, OversizeBallNut, SingleNut
-from ballscrew.physics.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, JISDrag, RexrothDrag
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, JISDrag, RexrothDrag
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.solvers.load_distribution import BallLoads, ball_loads
 from effect_study.cases import RPM

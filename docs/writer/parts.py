@@ -27,6 +27,7 @@ PARTS = {
     "api": "api_tables:write",
     "cards.md": "card_table:tables",
     "columns.md": "column_table:column_table",
+    "gallery.md": "gallery_table:table",
     "fields.md": "field_table:field_table",
     "slots.md": "law_tables:slots_table",
     "laws.md": "law_tables:laws_table",

@@ -116,9 +116,14 @@ class Written:
         included = {block["what"] for block in self.blocks if block["kind"] in ("include", "file")}
         return {
             *(part_of(name) for name in included if not name.endswith(".inc") and not (ROOT / name).is_file()),
-            *map(part_of, self.figures - self.kept),
+            *map(part_of, self.made_here(self.figures) - self.kept),
             *map(numbers_of, self.numbers),
         }
+
+    def made_here(self, names: set[str]) -> set[str]:
+        """The figures that are not kept by the command of another page: the gallery shows those, too."""
+        others = {name.replace("/", "-") for name in pages()} - {self.name.replace("/", "-"), *PARTS}
+        return {name for name in names if name.partition("/")[0] not in others}
 
     def outputs(self, files: kept.Files) -> list[str]:
         """What its commands print."""
@@ -254,7 +259,7 @@ def put(names: list[str], write: bool) -> Outcome:
                 differ.append(_difference(page, text))
                 if write:
                     page.path.write_text(text, encoding="utf-8")
-            for name in sorted(figures_of(text)):
+            for name in sorted(page.made_here(figures_of(text))):
                 before, now = FIGURES / name, made.figure(name, page)
                 if not now.is_file():
                     failed.append(f"{page.name}: nothing makes figures/{name}\n")

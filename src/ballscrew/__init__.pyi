@@ -52,10 +52,8 @@ from ballscrew.exports.hand_over import hand_over as hand_over
 from ballscrew.files.torque_logs.torque_log import TorqueLog as TorqueLog
 from ballscrew.files.torque_logs.torque_series import TorqueSeries as TorqueSeries
 from ballscrew.physics.components.data_sheet import DataSheet as DataSheet
-from ballscrew.physics.components.film_laws import HamrockDowson as HamrockDowson
 from ballscrew.physics.components.materials import Lubricant as Lubricant
 from ballscrew.physics.components.materials import Material as Material
-from ballscrew.physics.components.mixed_friction import ZhouHoeprich as ZhouHoeprich
 from ballscrew.physics.components.nut import Bodies as Bodies
 from ballscrew.physics.components.nut import Deviations as Deviations
 from ballscrew.physics.components.nut import DoubleNut as DoubleNut
@@ -63,7 +61,6 @@ from ballscrew.physics.components.nut import OffsetLeadNut as OffsetLeadNut
 from ballscrew.physics.components.nut import OversizeBallNut as OversizeBallNut
 from ballscrew.physics.components.nut import Scatter as Scatter
 from ballscrew.physics.components.nut import SingleNut as SingleNut
-from ballscrew.physics.components.nut_losses import Seals as Seals
 from ballscrew.physics.components.operating_state import OperatingState as OperatingState
 from ballscrew.physics.components.screw import BallScrew as BallScrew
 from ballscrew.physics.friction.breakaway import Breakaway as Breakaway
@@ -71,6 +68,9 @@ from ballscrew.physics.friction.breakaway import breakaway as breakaway
 from ballscrew.physics.friction.model import FrictionModel as FrictionModel
 from ballscrew.physics.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.physics.friction.result import FrictionResult as FrictionResult
+from ballscrew.physics.laws.film import HamrockDowson as HamrockDowson
+from ballscrew.physics.laws.friction import ZhouHoeprich as ZhouHoeprich
+from ballscrew.physics.laws.nut_losses import Seals as Seals
 from ballscrew.physics.moving_balls.across_groove import OffLineBalls as OffLineBalls
 from ballscrew.physics.moving_balls.across_groove import off_line_balls as off_line_balls
 from ballscrew.physics.moving_balls.chain import MovingChain as MovingChain

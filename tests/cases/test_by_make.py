@@ -4,8 +4,8 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.friction.calibrations import calibration_of_make, calibrations
+from ballscrew.physics.laws.friction import LoadSharing
 
 TABLES = {
     "screw": {"catalogue": "rexroth-40x10x6-6-double"},

@@ -14,8 +14,8 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema import case_schema as schema
 from ballscrew.engine.evaluation.comparison import same_law
-from ballscrew.physics.components import laws, mixed_friction, rolling_laws
 from ballscrew.physics.friction.model import presets
+from ballscrew.physics.laws import ball_chain, friction, rolling
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.pure_rolling import curvature_slip
 
@@ -99,7 +99,7 @@ def test_a_name_brings_its_own_coefficients(tables):
     assert case_file.build(tables).model.film.speed_exponent == 0.68
     model = model_of(tables, friction={"law": "load-sharing", "decay": 1.9})
     assert model.friction.decay == 1.9
-    assert model.friction.boundary_friction_coefficient == mixed_friction.LoadSharing().boundary_friction_coefficient
+    assert model.friction.boundary_friction_coefficient == friction.LoadSharing().boundary_friction_coefficient
 
 
 def test_all_in_one(tables):
@@ -114,10 +114,10 @@ def test_all_in_one(tables):
         pure_rolling_offset=0.3,
     )
     assert model.inlet.inlet_film_ratio == 3
-    assert isinstance(model.full_film, mixed_friction.EyringTraction)
-    assert model.rolling is rolling_laws.houpert_rolling
+    assert isinstance(model.full_film, friction.EyringTraction)
+    assert model.rolling is rolling.houpert_rolling
     assert model.elastic_resistance.loss_factor == 0.01
-    assert isinstance(model.ball_force, laws.ProportionalBallForce)
+    assert isinstance(model.ball_force, ball_chain.ProportionalBallForce)
     assert model.slip is curvature_slip
     assert model.pure_rolling_offset == 0.3
 

@@ -18,7 +18,7 @@ from ballscrew.cases.schema.case_schema import NUT_TABLES, json_schema, validate
 from ballscrew.cases.screw_tables.nut_kinds import NUTS, kind_of
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.physics.components.nut import Bodies, Deviations
-from ballscrew.physics.components.nut_losses import LipSeals, ReturnBraking, Seals, ShearedOil, SpinUp
+from ballscrew.physics.laws.nut_losses import LipSeals, ReturnBraking, Seals, ShearedOil, SpinUp
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.run.compute import run
 

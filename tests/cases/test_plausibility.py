@@ -14,12 +14,12 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.cases.case_files import case_file
-from ballscrew.physics.components.laws import Hysteresis
 from ballscrew.physics.components.materials import grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
+from ballscrew.physics.laws.rolling import Hysteresis
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.validate import compute as validation
 
@@ -118,6 +118,7 @@ def test_no_catalogue_row_is_implausible():
         assert subjects(implausible(parts)) == [], row.name
 
 
+@pytest.mark.slow
 def test_no_validation_row_is_implausible():
     for entries, _ in validation.evaluate(validation.request(model="corrected")):
         for point in (point for entry in entries for point in entry.points):

@@ -83,6 +83,7 @@ def test_a_slip_is_named(setting):
     assert {record.severity for record in found} == {"warning"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_names_it(ballscrew, command):
     # the model of the paper answers the quickest
@@ -96,6 +97,7 @@ def test_every_command_names_it(ballscrew, command):
             assert record["text"] in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("setting", BESIDE_FRICTION)
 @pytest.mark.parametrize("command", ["check", "duty"])
 def test_no_verdict_is_without_it(ballscrew, command, setting):

@@ -110,6 +110,7 @@ def test_the_case_of_a_row_keeps_them(rows, tmp_path):
     assert "spacer" not in people.case_text(rows["B"])
 
 
+@pytest.mark.slow
 def test_a_band_is_that_of_the_nut_with_them(ballscrew, written):
     def median(*settings):
         done = ballscrew(

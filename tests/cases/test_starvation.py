@@ -13,7 +13,7 @@ from ballscrew.basis.output.sheet import Columns, Number, Table, words
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks, terminal
-from ballscrew.physics.components.film_laws import Inlet
+from ballscrew.physics.laws.inlet import Inlet
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band.options import BandOptions
@@ -110,6 +110,7 @@ def test_the_band_says_where_the_full_bath_lies():
     assert said.text.startswith("the band takes oil to come back into the track late")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load", ["500 N", "5 kN"])
 def test_the_band_holds_both_torques_that_are_named(load):
     """Also under a light load, where balls in thick oil skid in a full bath alone."""
@@ -289,6 +290,7 @@ def test_a_sweep_without_starved_points_has_one_torque_and_so_have_those_with_a_
     assert paired(case, SPEEDS_AND_OILS, [*torque, "flooded_torque"]).outputs == ("screw_torque", "flooded_torque")
 
 
+@pytest.mark.slow
 def test_a_sweep_with_bands_has_the_full_bath_as_it_is_beside_them():
     case = case_with("40 degC")
     plan = paired(case, COLD_TO_WARM, ["screw_torque"], banded=True)
@@ -301,6 +303,7 @@ def test_a_sweep_with_bands_has_the_full_bath_as_it_is_beside_them():
     assert outputs["flooded_torque"]["values"][0] == pytest.approx(float(one.flooded_torque), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_store_has_the_full_bath_beside_the_torque(tmp_path):
     case, to = case_with("40 degC"), tmp_path / "map.zarr"
     plan = paired(case, COLD_TO_WARM, ["screw_torque"], to)
@@ -367,6 +370,7 @@ def test_a_sweep_of_the_screws_of_a_table_has_both_for_all_where_one_is_starved(
     assert np.isfinite(found["flooded_torque"].to_numpy()).all()
 
 
+@pytest.mark.slow
 def test_a_sweep_that_heats_itself_is_judged_at_the_oil_as_warm_as_it_becomes():
     case = case_with("-5 degC")  # the oil that is given, which no point of a warm hall has
     case = dataclasses.replace(case, surroundings=Surroundings(ambient=330.0))
@@ -402,6 +406,7 @@ def log_of(case, temperatures):
     return {"axial_load": load, "screw_speed": speeds, "temperature": warm, "torque": torque}
 
 
+@pytest.mark.slow
 def test_a_fit_says_that_its_log_is_of_a_starved_model():
     case = case_with("20 degC")
     for temperatures, starved in (((263.15, 283.15), True), ((333.15, 353.15), False)):
@@ -442,6 +447,7 @@ def test_of_more_starved_rows_than_are_solved_the_most_starved_is_named():
     assert record.value == pytest.approx(float(here.flooded_torque), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_torque_without_load_says_that_the_nut_is_starved_of_oil():
     for temperature, starved in (("0 degC", True), ("60 degC", False)):
         case = case_with(temperature)
@@ -453,6 +459,7 @@ def test_a_torque_without_load_says_that_the_nut_is_starved_of_oil():
             assert record["value"] == pytest.approx(float(idle.flooded_torque), rel=0.2)
 
 
+@pytest.mark.slow
 def test_a_condition_says_that_its_tests_are_of_a_starved_model():
     for degrees, starved in ((0.0, True), (60.0, False)):
         case = case_with(f"{degrees:g} degC")
@@ -469,6 +476,7 @@ def test_a_condition_says_that_its_tests_are_of_a_starved_model():
 BOTH = ("c", "drive")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("target", ["c", "table", "matlab", "modelica", "linuxcnc", "drive"])
 def test_the_readme_of_an_export_says_that_its_range_is_starved_of_oil(target):
     case = case_with("20 degC")
@@ -493,6 +501,7 @@ def test_an_export_is_judged_without_load_too():
     assert record.value == pytest.approx(float(idle.flooded_torque[place]), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up():
     case = case_file.build(tables_of_duty("-5 degC"), moves=True)
     cold = warm_up.warmed_up(warm_up.load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], None))

@@ -14,8 +14,8 @@ from ballscrew.cases.schema import case_schema as schema
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.laws.friction import LoadSharing
 
 SCREW, OIL = fields_of(bs.BallScrew), fields_of(bs.Lubricant)
 Z = 1.959963984540054

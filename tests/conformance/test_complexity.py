@@ -56,6 +56,7 @@ def test_complexity_counts_what_branches(body, expected):
     assert complexity(function) == expected
 
 
+@pytest.mark.slow
 def test_functions_are_found_in_every_folder():
     (folder,) = ballscrew.__path__
     found = [name for name, _ in functions_in(Path(folder))]
@@ -63,6 +64,7 @@ def test_functions_are_found_in_every_folder():
     assert len(found) > 2000
 
 
+@pytest.mark.slow
 def test_no_function_is_too_complex():
     (folder,) = ballscrew.__path__
     counted = {name: complexity(function) for name, function in functions_in(Path(folder))}

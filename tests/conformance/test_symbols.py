@@ -42,6 +42,7 @@ WRONG = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("wrong", WRONG)
 def test_a_wrong_formula_is_found_out(wrong):
     name, formula = WRONG[wrong]
@@ -55,6 +56,7 @@ def changed_numbers(numbers):
         yield {**numbers, name: f"{float(number) + 10**-decimals:.{decimals}f}"}
 
 
+@pytest.mark.slow
 @for_each(equation=FORMULAS)
 def test_every_number_of_a_formula_counts(equation):
     left, _, right = formula_of(equation.function).partition("=")

@@ -39,6 +39,7 @@ def test_an_early_end_is_found(body, expected):
     assert list(returns(test)) == expected
 
 
+@pytest.mark.slow
 def test_no_test_returns_early():
     files = sorted(TESTS.rglob("test_*.py"))
     modules = {path.relative_to(TESTS).as_posix(): ast.parse(path.read_text(encoding="utf-8")) for path in files}

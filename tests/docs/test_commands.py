@@ -18,6 +18,8 @@ import pytest
 
 from .pages import ROOT, blocks, commands, name, pages
 
+pytestmark = pytest.mark.slow
+
 #: Run by ``.ci/run`` itself, which is what keeps them true.
 RUN_BY_CI = ("make demo", "make test")
 

@@ -119,6 +119,7 @@ def test_the_slip_fields_fill_their_ellipses():
         assert top == -bottom == pytest.approx(panel.patches[0].height / 2)
 
 
+@pytest.mark.slow
 def test_two_runs_give_the_same_bytes(tmp_path):
     for name in ("one", "two"):
         with charts.house_style():
@@ -147,6 +148,7 @@ def test_all_the_page_shows_is_written(page, tmp_path, monkeypatch):
     assert all((tmp_path / name).is_file() for name in shown)
 
 
+@pytest.mark.slow
 def test_the_numbers_of_the_pages_are_those_that_are_made(page, monkeypatch):
     """All on a page are known, and all known ones stand on a page: none is computed for nothing."""
     monkeypatch.syspath_prepend(str(ROOT / "docs"))

@@ -13,6 +13,8 @@ from support.rules import for_each
 
 from .pages import ROOT, blocks, markers, name, pages
 
+pytestmark = pytest.mark.slow
+
 
 def examples(page):
     return [block for block in blocks(page) if block.info == "python" and not block.written]

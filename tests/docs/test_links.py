@@ -136,6 +136,7 @@ def test_no_built_page_asks_for_anything_outside(built_pages):
         assert not IN_STYLES.search(path.read_text(encoding="utf-8")), path
 
 
+@pytest.mark.slow
 def test_links_of_the_built_pages_lead_somewhere(built_pages):
     for path in built_pages:
         page = parsed(path)

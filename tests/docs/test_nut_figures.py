@@ -19,6 +19,7 @@ def test_the_page_shows_all():
     assert set(re.findall(r"figures/nuts/(\w+)\.svg", text)) == set(nut_figures.DRAWN)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", nut_figures.DRAWN)
 def test_axes_have_words_and_units(name):
     with charts.house_style():
@@ -30,6 +31,7 @@ def test_axes_have_words_and_units(name):
     assert "40 × 10" in " ".join(text.get_text() for text in figure.texts).replace("\n", " ")
 
 
+@pytest.mark.slow
 def test_two_runs_give_the_same_bytes(tmp_path):
     for name in ("one", "two"):
         with charts.house_style():

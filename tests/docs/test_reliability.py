@@ -43,6 +43,7 @@ def test_each_section_runs(tmp_path):
     assert {name for name, row in rows(page).items() if row["tried"] != "0"} == SECTIONS
 
 
+@pytest.mark.slow
 def test_the_program_of_the_run_starts():
     """It leans on tests of the server, which may move; the run itself is long."""
     command = [sys.executable, "-m", "benchmarks.hostile", "--help"]

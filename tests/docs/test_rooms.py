@@ -7,6 +7,8 @@ import pytest
 
 import make_rooms
 
+pytestmark = pytest.mark.slow
+
 
 def without_sizes(text):
     """The table without its numbers, which change with every line of code."""

@@ -47,6 +47,7 @@ def shown():
             yield f"{name(page)}:{number}", function
 
 
+@pytest.mark.slow
 @for_each(function=dict(shown()))
 def test_formulas_have_their_letters_and_units(equation, function):
     module, _, called = function.rpartition(".")
@@ -72,6 +73,7 @@ def test_a_function_without_a_formula_is_refused(equation):
         equation.as_markdown("ballscrew.physics.equations.hertz.ellipticity", "")
 
 
+@pytest.mark.slow
 def test_every_erratum_has_a_section_and_a_test(errata):
     assert errata.without_a_section() == []
     page = errata.page()

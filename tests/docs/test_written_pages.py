@@ -101,6 +101,7 @@ def test_commands_print_what_their_page_says(apart):
     assert apart.put([OF_COMMANDS], write=False) == ([], [])
 
 
+@pytest.mark.slow
 def test_tables_are_what_their_programs_make(apart):
     assert apart.put([OF_TABLES], write=False) == ([], [])
 
@@ -162,6 +163,7 @@ def drawn(path, height):
     return path
 
 
+@pytest.mark.slow
 def test_committed_drawings_may_differ_by_what_nobody_sees(writer, tmp_path):
     """All of them, with names of clip paths that another processor may make, and with the last digits of a place."""
     drawings = sorted(writer.write.FIGURES.rglob("*.svg"))

@@ -266,6 +266,7 @@ def test_derivatives_are_the_slope(handed_over):
     assert found["d_screw_torque_d_screw_speed"][1] == pytest.approx(slope, rel=1e-7)
 
 
+@pytest.mark.slow
 @needs_a_compiler
 def test_the_example_passes_its_test_vector(ballscrew, example, tmp_path):
     done = ballscrew("hand-over", example, "--to", "c", "-o", "made", "--json")

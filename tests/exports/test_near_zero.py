@@ -17,6 +17,8 @@ from .presets import NUTS as RIGID
 from .presets import presets_and_nuts
 from .test_c99 import compiled, needs_the_library
 
+pytestmark = pytest.mark.slow
+
 NUTS = {
     **RIGID,
     "elastic single": bs.SingleNut(bodies=Bodies()),

@@ -25,6 +25,8 @@ from ballscrew.physics.moving_balls.reversal import loops, reversal
 from .compiled import library, needs_a_compiler
 from .conftest import OIL
 
+pytestmark = pytest.mark.slow
+
 LOAD, SPEED, COUNT = 2000.0, 0.6, 3
 ASKED = {"presliding": COUNT, "presliding_load": LOAD, "presliding_speed": SPEED}
 #: Rounding, as a share of the steady torque: every step of the state is one of gms_torque.

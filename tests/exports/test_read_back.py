@@ -21,7 +21,10 @@ from ballscrew.exports.targets import TARGETS
 
 from .compiled import evaluated, library, names, needs_a_compiler
 
-pytestmark = pytest.mark.skipif(not interpreter.runs_here(), reason="the prebuilt library is for Linux on x86-64")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not interpreter.runs_here(), reason="the prebuilt library is for Linux on x86-64"),
+]
 #: Cases by name: an example, and what is changed in it.
 CASES = {
     "single": ("feed_drive.toml", ["operation.axial_load=3 kN", "lubricant.temperature=31 degC"]),

@@ -7,8 +7,8 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 import ballscrew as bs
-from ballscrew.physics.components.mixed_friction import arana_traction
 from ballscrew.physics.equations import rheology, traction
+from ballscrew.physics.laws.friction import arana_traction
 
 #: Friction by Arana2019's law at slips of 0.1, 0.3, 1 and 3 %, computed elsewhere and rounded to three decimals, by the
 #: greatest pressure in GPa. Speed and film are not stated: both are in one number a row, the rate at a slip of one.

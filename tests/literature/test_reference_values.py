@@ -11,9 +11,6 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.frame import helix_frame
-from ballscrew.physics.components.laws import exact_hertz
-from ballscrew.physics.components.nut_losses import JISDrag
 from ballscrew.physics.equations import (
     friction,
     geometry,
@@ -24,6 +21,9 @@ from ballscrew.physics.equations import (
     slip,
     transmission,
 )
+from ballscrew.physics.laws.frame import helix_frame
+from ballscrew.physics.laws.hertz import exact_hertz
+from ballscrew.physics.laws.nut_losses import JISDrag
 
 DATA = Path(__file__).parents[1] / "data"
 ENTRIES = json.loads((DATA / "golden.json").read_text(encoding="utf-8"))["entries"]

@@ -120,6 +120,7 @@ def test_intervals_cover_the_closed_form_as_often_as_they_say(monkeypatch):
     assert np.min(found) > 0.88
 
 
+@pytest.mark.slow
 def test_intervals_of_evenly_spread_samples_cover_more(function):
     """From 4096 on all do. Of fewer some pairs of columns of a Sobol' sequence are no better than random."""
     assert np.min(coverage(function, 2**12, 20)) >= 0.95

@@ -38,9 +38,9 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, fault_of, is_concrete, raise_if_any, shown
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Power, Quantity, Ratio, Speed, Torque, fields_of
-from ballscrew.physics.components.frame import Frame, helix_frame
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
+from ballscrew.physics.laws.frame import Frame, helix_frame
 from oracles.contact_patch import ContactPatch, Ellipse, SlipField, hertz_ellipse
 from oracles.free_ball import ALONG, LATERAL, SPIN, BallResistances, FreeBall, Imbalance
 from oracles.tractions import (

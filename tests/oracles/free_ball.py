@@ -26,9 +26,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ballscrew.basis.quantities import AngularSpeed, Force, Length, Speed, Torque
-from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import kinematics
+from ballscrew.physics.laws.frame import Frame
 from oracles.contact_patch import ContactPatch
 from oracles.tractions import (
     Field,

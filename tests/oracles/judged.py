@@ -3,8 +3,8 @@
 import math
 
 import ballscrew as bs
-from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.equations import geometry
+from ballscrew.physics.laws.frame import helix_frame
 from oracles.contact_patch import ContactPatch, hertz_ellipse
 from oracles.free_ball import BallResistances, FreeBall
 from oracles.tractions import Coulomb, Eyring, LimitingShear

@@ -8,8 +8,8 @@ import pytest
 from scipy import integrate, optimize
 
 import ballscrew as bs
-from ballscrew.physics.components.frame import bearing_frame, helix_frame
 from ballscrew.physics.equations import friction
+from ballscrew.physics.laws.frame import bearing_frame, helix_frame
 from oracles import contact_integral as solver
 from oracles.contact_integral import contact_integral
 from oracles.contact_patch import ContactPatch, Ellipse, hertz_ellipse

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.frame import helix_frame
+from ballscrew.physics.laws.frame import helix_frame
 from oracles import contact_integral as solver
 from oracles.contact_integral import contact_integral
 from oracles.contact_patch import hertz_ellipse
@@ -17,6 +17,8 @@ from oracles.tractions import (
     Eyring,
     LimitingShear,
 )
+
+pytestmark = pytest.mark.slow
 
 # -- everywhere -----------------------------------------------------------------------------------
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components import laws
+from ballscrew.physics.laws import ball_chain
 from ballscrew.physics.sizing.checks import ratings_of
 
 REFERENCE = bs.FrictionModel.reference()
@@ -39,7 +39,7 @@ def test_opposed_neighbours_rub_and_do_not_brake(nut):
 @pytest.mark.parametrize("nut", NUTS)
 def test_two_neighbours_rub_and_brake(nut):
     """Screw and nut torque differ by what pushes the balls along, of which the orbit takes a little under half."""
-    opposed, r = friction(nut), friction(nut, ball_chain=laws.two_neighbours)
+    opposed, r = friction(nut), friction(nut, ball_chain=ball_chain.two_neighbours)
     assert r.contributions["ball_to_ball"] == pytest.approx(opposed.contributions["ball_to_ball"], rel=0.05)
     assert 0.4 < r.contributions["chain_braking"] / (r.screw_torque - r.nut_torque) < 0.5
     assert sum(r.dissipation.values()) == pytest.approx(r.screw_torque * SPEED, rel=1e-9)
@@ -51,8 +51,8 @@ def test_two_neighbours_rub_and_brake(nut):
 @pytest.mark.parametrize("nut", NUTS)
 def test_parted_balls_do_neither(nut):
     """A law of the chain that is zero is a force of zero, with two contacts and with four."""
-    parted = friction(nut, ball_chain=laws.parted_neighbours)
-    without = friction(nut, ball_force=laws.ProportionalBallForce(0.0))
+    parted = friction(nut, ball_chain=ball_chain.parted_neighbours)
+    without = friction(nut, ball_force=ball_chain.ProportionalBallForce(0.0))
     assert parted.contributions["ball_to_ball"] == parted.contributions["chain_braking"] == 0
     assert parted.screw_torque == pytest.approx(without.screw_torque, rel=1e-12)
     assert parted.screw_torque < friction(nut).screw_torque

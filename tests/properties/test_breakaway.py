@@ -8,8 +8,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.equations import presliding
+from ballscrew.physics.laws.friction import LoadSharing
 
 REFERENCE = bs.FrictionModel.reference()
 

@@ -186,6 +186,7 @@ def test_a_motor_that_fits_and_one_that_does_not():
     assert MotorCheck(found, heated).copper_loss == pytest.approx(2.0 * found.torque_rms**2 / 0.25 * cycle, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_band_of_a_cycle():
     """Its numbers are those of the duty for its own friction, and a wider input makes a wider band."""
     axis = dataclasses.replace(UPRIGHT, transmission_efficiency=0.9, transmission_ratio=2.0, bearing_torque=0.1)

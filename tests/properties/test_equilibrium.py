@@ -6,8 +6,8 @@ import math
 import numpy as np
 from hypothesis import given
 
-from ballscrew.physics.components.frame import bearing_frame, helix_frame
 from ballscrew.physics.equations import equilibrium, kinematics
+from ballscrew.physics.laws.frame import bearing_frame, helix_frame
 from support.strategies import (
     all_models,
     balanced_models,

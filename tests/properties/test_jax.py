@@ -17,8 +17,10 @@ from ballscrew.engine.evaluation import jax_derivatives
 from ballscrew.engine.evaluation.jax_derivatives import jax_value_and_partials
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.physics.components import chain_force, film_laws, laws, mixed_friction, rolling_laws
+from ballscrew.physics.laws import ball_chain, film, friction, hertz, inlet, rolling
 from ballscrew.physics.solvers.line_slip import line_slip
+
+pytestmark = pytest.mark.slow
 
 PRESETS = {
     "olaru2005": bs.FrictionModel.olaru2005(),
@@ -31,28 +33,28 @@ OTHERS = {
     "line slip": dataclasses.replace(
         reference,
         slip=line_slip,
-        friction=mixed_friction.GreenwoodTrippSharing(),
-        rolling=rolling_laws.aihara_rolling,
-        ball_force=laws.ProportionalBallForce(),
+        friction=friction.GreenwoodTrippSharing(),
+        rolling=rolling.aihara_rolling,
+        ball_force=ball_chain.ProportionalBallForce(),
     ),
     "Arana": dataclasses.replace(
         reference,
-        full_film=mixed_friction.arana_traction,
-        inlet=film_laws.flooded_inlet,
-        ball_force=chain_force.ChainBallForce(gap=0.03),
+        full_film=friction.arana_traction,
+        inlet=inlet.flooded_inlet,
+        ball_force=ball_chain.ChainBallForce(gap=0.03),
     ),
     "Eyring": dataclasses.replace(
         corrected,
-        full_film=mixed_friction.EyringTraction(),
-        elastic_resistance=laws.Hysteresis(),
-        rolling=rolling_laws.houpert_rolling,
+        full_film=friction.EyringTraction(),
+        elastic_resistance=rolling.Hysteresis(),
+        rolling=rolling.houpert_rolling,
     ),
     "limiting shear": dataclasses.replace(
         corrected,
-        full_film=mixed_friction.LimitingShearTraction(),
-        hertz=laws.brewe_hamrock_hertz,
-        film=film_laws.hamrock_dowson_central,
-        friction=mixed_friction.BalanSharing(),
+        full_film=friction.LimitingShearTraction(),
+        hertz=hertz.brewe_hamrock_hertz,
+        film=film.hamrock_dowson_central,
+        friction=friction.BalanSharing(),
     ),
 }
 #: What numbers the models leave open.

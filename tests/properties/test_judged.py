@@ -261,6 +261,7 @@ def values_at(subject, load, speed):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nut", [bs.SingleNut(), bs.DoubleNut(preload=PRELOAD)], ids=["row", "double"])
 @pytest.mark.parametrize("model", [bs.FrictionModel.olaru2005(), bs.FrictionModel.reference()], ids=["paper", "usual"])
 def test_verdicts_on_the_tape_of_a_model(model, nut):

@@ -9,9 +9,9 @@ import pytest
 import ballscrew as bs
 from ballscrew.cases.schema.case_schema import LAWS
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from ballscrew.physics.components import film_laws, laws, mixed_friction, rolling_laws
-from ballscrew.physics.components.conditions import Motion
-from ballscrew.physics.components.contact import ContactLaws, rolling_contact
+from ballscrew.physics.laws import ball_chain, friction, inlet, rolling
+from ballscrew.physics.laws.conditions import Motion
+from ballscrew.physics.laws.contact import ContactLaws, rolling_contact
 from ballscrew.physics.solvers.line_slip import line_slip
 from support.strategies import MODELS, RPM, box, reference
 
@@ -113,13 +113,13 @@ SPEEDS = np.array([0.0, 1e-6, 1e-3, 1.0, 30.0, 300.0, 1000.0, 5000.0])
 
 
 def test_the_inlet_is_cool_at_rest_and_heats_with_speed():
-    warm = film_laws.Inlet()(contact(100.0, SPEEDS))
+    warm = inlet.Inlet()(contact(100.0, SPEEDS))
     assert warm.film[0] == 1
     assert np.all(np.diff(warm.film) < 0)
     assert np.all((warm.film > 0) & (warm.film <= 1))
     assert warm.film[1] == pytest.approx(1, abs=1e-3)
     # flooded: the rolling force falls as the film does
-    flooded = film_laws.Inlet(replenishment_constant=0.0)(contact(100.0, SPEEDS))
+    flooded = inlet.Inlet(replenishment_constant=0.0)(contact(100.0, SPEEDS))
     assert flooded.rolling == pytest.approx(flooded.film, rel=1e-4)
     # oil that comes back too late lowers it further, the more the faster
     replenished = warm.rolling / flooded.rolling
@@ -129,14 +129,14 @@ def test_the_inlet_is_cool_at_rest_and_heats_with_speed():
 
 def test_a_thick_oil_heats_more_and_a_conductive_one_less():
     film = [
-        film_laws.Inlet()(contact(100.0, 600.0, dataclasses.replace(OIL, **changed))).film
+        inlet.Inlet()(contact(100.0, 600.0, dataclasses.replace(OIL, **changed))).film
         for changed in ({}, {"viscosity": 2 * OIL.viscosity}, {"thermal_conductivity": 2 * OIL.thermal_conductivity})
     ]
     assert film[1] < film[0] < film[2]
 
 
 def test_a_starved_inlet_rolls_more_easily():
-    factors = [film_laws.Inlet(S, replenishment_constant=0.0)(contact(100.0, 600.0)) for S in (2.0, 10.0, 100.0, 1e6)]
+    factors = [inlet.Inlet(S, replenishment_constant=0.0)(contact(100.0, 600.0)) for S in (2.0, 10.0, 100.0, 1e6)]
     assert np.all(np.diff([f.rolling for f in factors]) > 0)
     assert len({float(f.film) for f in factors}) == 1
     assert factors[-1].rolling == pytest.approx(factors[-1].film, rel=1e-4)
@@ -145,10 +145,10 @@ def test_a_starved_inlet_rolls_more_easily():
 # -- mixed friction --------------------------------------------------------------------------------
 
 SHARING = {
-    "Zhou and Hoeprich": mixed_friction.LoadSharing(),
-    "new": mixed_friction.RunInSharing(run_in_film_parameter=0.0),
-    "Balan": mixed_friction.BalanSharing(),
-    "Greenwood and Tripp": mixed_friction.GreenwoodTrippSharing(),
+    "Zhou and Hoeprich": friction.LoadSharing(),
+    "new": friction.RunInSharing(run_in_film_parameter=0.0),
+    "Balan": friction.BalanSharing(),
+    "Greenwood and Tripp": friction.GreenwoodTrippSharing(),
 }
 
 
@@ -186,7 +186,7 @@ def test_the_film_has_the_friction_of_its_own_slot(name):
 
 def test_asperities_carry_less_of_a_heavier_load():
     """Until they touch as closely as the theory goes; and without a film they carry all, whatever the load."""
-    law = mixed_friction.GreenwoodTrippSharing()
+    law = friction.GreenwoodTrippSharing()
     loads = np.array([1e-3, 1e-2, 0.1, 1.0, 100.0, 1e4])
     conditions = contact(loads, 600.0)
     mu = law(dataclasses.replace(conditions, film_parameter=1.0))
@@ -200,9 +200,9 @@ def test_asperities_carry_less_of_a_heavier_load():
 # -- the film's own friction -----------------------------------------------------------------------
 
 FULL_FILM = {
-    "Arana": mixed_friction.arana_traction,
-    "Eyring": mixed_friction.EyringTraction(),
-    "limiting shear": mixed_friction.LimitingShearTraction(),
+    "Arana": friction.arana_traction,
+    "Eyring": friction.EyringTraction(),
+    "limiting shear": friction.LimitingShearTraction(),
 }
 
 
@@ -227,10 +227,10 @@ def test_friction_of_the_film_is_finite_anywhere(name):
 # -- rolling ---------------------------------------------------------------------------------------
 
 ROLLING = {
-    "olaru": rolling_laws.olaru_rolling,
-    "biboulet and houpert": rolling_laws.biboulet_houpert_rolling,
-    "houpert": rolling_laws.houpert_rolling,
-    "aihara": rolling_laws.aihara_rolling,
+    "olaru": rolling.olaru_rolling,
+    "biboulet and houpert": rolling.biboulet_houpert_rolling,
+    "houpert": rolling.houpert_rolling,
+    "aihara": rolling.aihara_rolling,
 }
 
 
@@ -256,10 +256,10 @@ def test_rolling_laws_agree_in_size():
 
 def test_hysteresis_is_in_proportion_to_its_loss():
     conditions = contact(100.0, 600.0)
-    once, twice = (laws.Hysteresis(loss)(conditions) for loss in (0.02, 0.04))
+    once, twice = (rolling.Hysteresis(loss)(conditions) for loss in (0.02, 0.04))
     assert twice == 2 * once == pytest.approx(3 / 16 * 0.04 * 100 * conditions.semi_minor_axis, rel=1e-12)
     # the paper's fit for steel corresponds to a loss of 0.02 to 0.04
-    model = dataclasses.replace(reference, elastic_resistance=laws.Hysteresis(0.03))
+    model = dataclasses.replace(reference, elastic_resistance=rolling.Hysteresis(0.03))
     found, fit = (
         some(SCREW, OIL, axial_load=4000.0, screw_speed=60.0).contributions["elastic_hysteresis"]
         for some in (model, reference)
@@ -273,8 +273,8 @@ def test_force_between_balls_may_grow_with_the_load():
     def at(model):
         return model(SCREW, OIL, axial_load=4000.0, screw_speed=60.0)
 
-    imposed = dataclasses.replace(reference, ball_force=laws.imposed_ball_force)
-    grows = dataclasses.replace(reference, ball_force=laws.ProportionalBallForce(0.002))
+    imposed = dataclasses.replace(reference, ball_force=ball_chain.imposed_ball_force)
+    grows = dataclasses.replace(reference, ball_force=ball_chain.ProportionalBallForce(0.002))
     r = at(grows)
     assert r.ball_to_ball_force == pytest.approx(0.002 * r.contact_load, rel=1e-12)
     assert at(dataclasses.replace(grows, ball_to_ball_force=0.01)).screw_torque == r.screw_torque
@@ -285,14 +285,14 @@ def test_force_between_balls_may_grow_with_the_load():
 @pytest.mark.parametrize(
     ("law", "coefficient", "value", "where"),
     [
-        (laws.Hysteresis, "loss_factor", -0.1, "model.elastic_resistance"),
-        (laws.ProportionalBallForce, "share_of_load", -0.1, "model.ball_force"),
-        (film_laws.Inlet, "inlet_film_ratio", 0.0, "model.inlet"),
-        (mixed_friction.LoadSharing, "boundary_friction_coefficient", -0.1, "model.friction"),
-        (mixed_friction.BalanSharing, "full_film_friction_coefficient", math.nan, "model.friction"),
-        (mixed_friction.GreenwoodTrippSharing, "asperity_radius", 0.0, "model.friction"),
-        (mixed_friction.EyringTraction, "eyring_stress", 0.0, "model.full_film"),
-        (mixed_friction.LimitingShearTraction, "limiting_shear_coefficient", -1.0, "model.full_film"),
+        (rolling.Hysteresis, "loss_factor", -0.1, "model.elastic_resistance"),
+        (ball_chain.ProportionalBallForce, "share_of_load", -0.1, "model.ball_force"),
+        (inlet.Inlet, "inlet_film_ratio", 0.0, "model.inlet"),
+        (friction.LoadSharing, "boundary_friction_coefficient", -0.1, "model.friction"),
+        (friction.BalanSharing, "full_film_friction_coefficient", math.nan, "model.friction"),
+        (friction.GreenwoodTrippSharing, "asperity_radius", 0.0, "model.friction"),
+        (friction.EyringTraction, "eyring_stress", 0.0, "model.full_film"),
+        (friction.LimitingShearTraction, "limiting_shear_coefficient", -1.0, "model.full_film"),
     ],
 )
 def test_laws_refuse_bad_coefficients(law, coefficient, value, where):

@@ -61,6 +61,7 @@ def test_balls_balance_the_load(drawn):
     assert np.all(r.converged)
 
 
+@pytest.mark.slow
 def test_everything_is_a_number(drawn):
     _, r = drawn
     for name in (*quantities_of(BallLoads), "balls"):
@@ -81,6 +82,7 @@ def test_balls_are_pressed_and_never_pulled(drawn):
     assert np.all(r.rigidity[size > 0] > 0)
 
 
+@pytest.mark.slow
 @of_variants(lambda variant: variant["kind"] != "single")
 def test_without_load_the_halves_hold_each_other(drawn):
     """Invariant 22: at F = 0 both halves carry the preload; oversize balls scatter around it."""
@@ -92,6 +94,7 @@ def test_without_load_the_halves_hold_each_other(drawn):
         assert np.all(np.abs(forward - case.preload) <= TOLERANCE * case.preload + NOTHING)
 
 
+@pytest.mark.slow
 def test_nothing_without_load_and_preload(drawn):
     case, _ = drawn
     nut = case.nut if isinstance(case.nut, SingleNut) else dataclasses.replace(case.nut, preload=0.0)
@@ -107,6 +110,7 @@ def test_nothing_without_load_and_preload(drawn):
 # -- symmetries ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_an_array_is_a_row_of_numbers(drawn):
     """Neighbours in an array change nothing but the order of a sum: 1e-11 of the forces.
 
@@ -160,6 +164,7 @@ def test_a_common_error_of_the_lead_is_a_shift():
     assert np.max(np.abs(r.deflection - shifted.deflection)) <= 1e-15
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS, ids=NAMES)
 def test_units_do_not_matter(variant):
     """Lengths a thousandfold, forces a million: E in N/m² is in the same number."""
@@ -188,6 +193,7 @@ def test_units_do_not_matter(variant):
 # -- stiffness -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS, ids=NAMES)
 def test_rigidity_is_the_slope_of_load_over_deflection(variant):
     """A central difference over ±1e-4 of the load: errors of 1e-8, where no ball touches or leaves in between."""
@@ -207,6 +213,7 @@ def test_rigidity_is_the_slope_of_load_over_deflection(variant):
     assert np.max(error) <= 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS, ids=NAMES)
 def test_more_load_presses_more(variant):
     """Deflection, the sum of the forward loads, and what is left of the preload are monotone in the load."""
@@ -275,6 +282,7 @@ def test_the_other_flanks_lift_off_at_the_lift_off_load(kind, scatter, constant)
     assert np.all(np.abs(at.remaining_preload)[braced] <= 1e-9 * lift[braced])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("constant", [False, True])
 @pytest.mark.parametrize("same_side", [None, True, False])
 @pytest.mark.parametrize("scatter", [False, True])

@@ -8,14 +8,14 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.physics.components.nut_losses import Recirculation, Seals
 from ballscrew.physics.friction.balls import ball_friction, idle_ball_friction
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.nut_friction import nut_friction
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.physics.laws.friction import LoadSharing
+from ballscrew.physics.laws.nut_losses import Recirculation, Seals
 from ballscrew.physics.solvers.load_distribution import ball_loads
 from support.nut_cases import KINDS, nut_case
 from support.strategies import MODELS, RPM, constant_friction, reference, with_ball_force, without_losses_of_rolling
@@ -222,6 +222,7 @@ def random_screw(rng):
         return None
 
 
+@pytest.mark.slow
 def test_lift_off_is_no_jump():
     """The torque is continuous where the ball leaves a flank pair, on both sides of it and where both are valid.
 
@@ -265,6 +266,7 @@ def test_models_without_spin_know_no_four_contacts(name):
 # -- arrays ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [{}, {"bodies": Bodies.of(SCREW)}])
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_array_is_a_row_of_numbers(kind, more):

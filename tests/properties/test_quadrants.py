@@ -121,6 +121,7 @@ def test_the_temperature_of_the_state_is_that_of_the_oil():
         MODELS["reference"](screw, fixed, axial_load=0.0, screw_speed=50.0, temperature=320.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("set_at_rest", [False, True])
 def test_quadrants_between_elastic_bodies_are_those_of_the_model_at_either_load(set_at_rest):
     """A load of the other sign enters at the other end, and is carried by other balls: friction is another one."""

@@ -56,6 +56,7 @@ def usual(names):
     return {name: float(getattr(part, name)) for name in names}
 
 
+@pytest.mark.slow
 @pytest.mark.implausible
 @pytest.mark.parametrize("swelling", [True, False])
 @pytest.mark.parametrize("same_side", [True, False])

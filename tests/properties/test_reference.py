@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.equations import equilibrium, kinematics, slip
 from ballscrew.physics.friction.validity import REASONS
+from ballscrew.physics.laws.friction import LoadSharing
 from ballscrew.physics.solvers import ellipse_slip
 from support.strategies import box, constant_friction, reference, without_losses_of_rolling
 

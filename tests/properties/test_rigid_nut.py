@@ -142,6 +142,7 @@ def test_every_flank_carries_what_its_displacement_makes_of_it(drawn):
         assert np.max(np.abs(carried - expected) / size) <= 1e-5
 
 
+@pytest.mark.slow
 def test_balls_one_by_one_agree(drawn):
     """The search within brackets, which solves for each ball, on some of the nuts."""
     screw, nut, load, constant, r = drawn
@@ -179,6 +180,7 @@ def test_the_other_sign_is_the_mirror_image_to_the_last_bit(drawn):
         assert np.array_equal(getattr(r, name), getattr(mirrored, name)), name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "elastic", "scatter", "same_side"), MIRRORED)
 def test_a_nut_mirrored_as_a_whole_carries_the_other_load_alike(kind, elastic, scatter, same_side):
     """Errors of the lead change their sign.
@@ -294,6 +296,7 @@ def points(size, kind, away=0.0):
     return np.array([np.where(rng.random(size) < 0.1, 0.0, part * lift), preload, angle, diameter])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("constant", [False, True])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_recording_gives_the_numbers_of_arrays(kind, constant):
@@ -333,6 +336,7 @@ def slopes_there(kind, constant):
     return at, played(recorded(kind, constant, slopes=True), at), outcome(kind, constant, *at)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("constant", [False, True])
 @pytest.mark.parametrize(
     ("kind", "by"),
@@ -384,6 +388,7 @@ def test_a_single_nut_shares_the_first_newton_alike():
     assert slope == pytest.approx(1 / (56 * math.sin(math.pi / 4) * math.cos(screw_angle)), rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["single", "oversize", "double"])
 def test_jax_gives_the_numbers_and_the_derivatives(kind):
     """By load and preload, reverse mode, without load and beyond lift-off, too."""

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 import ballscrew as bs
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.evidence.papers.olaru2005 import SCREW
-from ballscrew.physics.components.film_laws import Inlet
-from ballscrew.physics.components.frame import bearing_frame
 from ballscrew.physics.equations.rolling import elastic_resistance_moment
 from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.laws.frame import bearing_frame
+from ballscrew.physics.laws.inlet import Inlet
 from support.strategies import (
     RPM,
     all_models,
@@ -66,6 +66,7 @@ def scaled_screw(screw, length, force):
     return dataclasses.replace(screw, **{name: getattr(screw, name) * length for name in lengths}, **materials)
 
 
+@pytest.mark.slow
 @given(cases, all_models, *[powers(1e-3, 1e3)] * 3)
 def test_units(case, model, length, force, time):
     """Nothing depends on the units: lengths, forces and times may be counted in any, with (20)'s constant converted."""
@@ -162,6 +163,7 @@ def test_rest_is_the_limit_of_slow_motion(case, model):
         assert close(near.drive_torque, limit, 1e-6, scale=torque_scale(rest))
 
 
+@pytest.mark.slow
 @given(screws(), oils, all_models, st.none() | st.just(0.0) | powers(1e-3, 1.0))
 @pytest.mark.parametrize(("axial_load", "screw_speed"), [(0.0, 0.0), (0.0, 60.0), (1000.0, 0.0)])
 def test_limits_are_numbers(axial_load, screw_speed, screw, oil, model, ball_to_ball_force):
@@ -193,6 +195,7 @@ def test_without_load_the_screw_still_drags(screw, oil, model, screw_speed):
     assert np.isnan(r.back_driving_efficiency)
 
 
+@pytest.mark.slow
 @given(screws(), oils, both_models, powers(1, 5000))
 def test_efficiency_vanishes_with_the_load(screw, oil, model, rpm):
     """η → 0 as Q → 0: the balls still have to be pushed and the oil still has to be moved."""
@@ -213,6 +216,7 @@ def test_efficiency_rises_at_light_load(model, rpm, viscosity):
     assert np.all(np.diff(r.efficiency[1:]) > 0)
 
 
+@pytest.mark.slow
 @given(screws(), oils, all_models, powers(1, 5000))
 def test_skid_is_flagged_as_the_load_vanishes(screw, oil, model, rpm):
     """The sliding force that equilibrium asks for falls more slowly than µQ: a ball with little load skids."""
@@ -229,6 +233,7 @@ def test_skid_is_flagged_as_the_load_vanishes(screw, oil, model, rpm):
 # -- the helix ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(cases)
 def test_helix_without_lead_is_a_bearing(case):
     """φ → 0 gives the thrust bearing. An array keeps the constructor from refusing a lead of zero."""
@@ -240,6 +245,7 @@ def test_helix_without_lead_is_a_bearing(case):
         assert close(output.read(helix), output.read(bearing)), name
 
 
+@pytest.mark.slow
 @given(cases, powers(1e-6, 1e-2))
 def test_helix_is_a_second_order_effect(case, slope):
     """For a small lead the helix changes the friction torque by the order of φ², and its sign does not count."""
@@ -251,6 +257,7 @@ def test_helix_is_a_second_order_effect(case, slope):
     assert close(r.screw_torque, back.screw_torque, scale=torque_scale(flat))
 
 
+@pytest.mark.slow
 @given(fitting_cases(), both_models)
 def test_on_a_huge_pitch_circle_both_contacts_are_alike(case, model):
     """d_m → ∞: screw and nut are both flat to the ball, and no contact can tell them apart."""
@@ -273,6 +280,7 @@ def test_on_a_huge_pitch_circle_both_contacts_are_alike(case, model):
 # -- arrays ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(st.lists(cases, min_size=2, max_size=4), both_models)
 def test_arrays_are_scalars_element_by_element(some, model):
     """An array of operating points gives what each point gives by itself."""
@@ -298,6 +306,7 @@ def test_arrays_are_scalars_element_by_element(some, model):
                 assert close(found, expected, scale=scale.get(name)), name
 
 
+@pytest.mark.slow
 @given(cases, all_models)
 def test_designs_may_be_arrays_too(case, model):
     """Fields of the screw and of the oil broadcast like operating points."""
@@ -308,6 +317,7 @@ def test_designs_may_be_arrays_too(case, model):
         assert close(together.screw_torque[i], alone.screw_torque, scale=torque_scale(alone))
 
 
+@pytest.mark.slow
 @given(cases, all_models)
 def test_nonsense_in_an_array_stays_where_it_is(case, model):
     """NaN and infinite numbers are flagged where they stand, and leave their neighbours alone."""

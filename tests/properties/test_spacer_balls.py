@@ -8,9 +8,9 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.evidence.calibration.fit import fit
-from ballscrew.physics.components.laws import ProportionalBallForce, parted_neighbours
 from ballscrew.physics.components.nut import Bodies, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.physics.components.nut_losses import Churning
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce, parted_neighbours
+from ballscrew.physics.laws.nut_losses import Churning
 from support.strategies import MODELS
 
 REFERENCE = MODELS["reference"]

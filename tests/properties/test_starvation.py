@@ -14,9 +14,9 @@ from ballscrew.axis.duty_cycle.drive import MotorCheck
 from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import Trapezoid
-from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.inlet import Inlet
 
 MODEL = FrictionModel.reference()
 SCREW = bs.BallScrew(
@@ -44,6 +44,7 @@ def test_a_full_bath_never_has_the_smaller_torque_where_the_heat_of_the_inlet_is
         assert found.flooded_torque >= 0.7 * found.screw_torque
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(
     st.floats(-20.0, 90.0), st.floats(100.0, 30e3), st.floats(0.1, 400.0), st.sampled_from(["ISO VG 32", "ISO VG 220"])
@@ -112,6 +113,7 @@ def cycle(temperature, nut, constant, grade="ISO VG 100"):
     return duty(model, ROW.screw(nut=nut), oil, axis=UPRIGHT, motion=MOTION)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nut", NUTS, ids=lambda nut: type(nut).__name__)
 def test_the_torque_that_a_motor_is_judged_by_is_never_below_that_of_either_condition(nut):
     for temperature in (-10.0, 5.0, 25.0, 60.0):
@@ -130,6 +132,7 @@ def test_the_torque_that_a_motor_is_judged_by_is_never_below_that_of_either_cond
         assert starved.flooded.torque_peak == pytest.approx(bath.torque_peak, rel=OF_TURNS)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("nut", NUTS, ids=lambda nut: type(nut).__name__)
 def test_an_axis_that_is_let_go_has_the_smaller_friction_where_it_is_starved(nut):
     """So that a brake, and whether the load drives, are judged by it with the inlet as it is given."""

@@ -7,8 +7,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.physics.components.laws import imposed_ball_force, opposed_neighbours, two_neighbours
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.ball_chain import imposed_ball_force, opposed_neighbours, two_neighbours
 
 RPM = math.pi / 30
 

@@ -56,8 +56,8 @@ def where(mask: Any, yes: Any, no: Any) -> Any:
     """``where`` of the namespace of the values; a number for numbers."""
     if type(mask) is np.bool_ and type(yes) in _NUMBERS and type(no) in _NUMBERS:  # NumPy takes six times as long
         return np.float64(yes if mask else no)
-    found = namespace(mask, yes, no).where(mask, yes, no)
-    return found[()] if isinstance(found, np.ndarray) else found
+    result = namespace(mask, yes, no).where(mask, yes, no)
+    return result[()] if isinstance(result, np.ndarray) else result
 
 
 def _symbolic() -> SimpleNamespace:

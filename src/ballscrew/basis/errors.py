@@ -133,8 +133,8 @@ class ImplausibleInput(UserWarning):
 def nearest(word: str, known: Iterable[str], most: int | None = None) -> str:
     """``did you mean "…"?`` for the closest known word, else the list of known words, ``most`` of them at most."""
     candidates = list(known)
-    if found := closest(word, candidates):
-        return f'did you mean "{found}"?'
+    if result := closest(word, candidates):
+        return f'did you mean "{result}"?'
     is_cut = most is not None and len(candidates) > most
     return f"known: {', '.join(candidates[:most])}{', …' if is_cut else ''}"
 
@@ -216,10 +216,10 @@ def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> F
         return Fault(where, "must be a number or an array of numbers", given or shown(value, quantity.unit), remedy)
     if not is_concrete(value):
         return None
-    found = out_of_bounds(quantity.info, as_float(value))
-    if found is None:
+    violated = out_of_bounds(quantity.info, as_float(value))
+    if violated is None:
         return None
-    condition, bound = found
+    condition, bound = violated
     problem = BEYOND[condition] if bound is None else BEYOND[condition].format(bound=shown(bound, quantity.unit))
     return Fault(where, problem, given or shown(value, quantity.unit), quantity.info.hint, bound=bound)
 
@@ -342,21 +342,21 @@ def faults_of(section: str, part: Any, optional: Sequence[str] = ()) -> list[Fau
 
     Fields that were given as quantities of pint become numbers in SI.
     """
-    found: list[Fault] = []
+    faults: list[Fault] = []
     for name, quantity in fields_of(part).items():
         given = getattr(part, name)
         if given is None and name in optional:
             continue
         value = without_unit(f"{section}.{name}", given, quantity.unit)
         if isinstance(value, Fault):
-            found.append(value)
+            faults.append(value)
             continue
         if value is not given:
             object.__setattr__(part, name, value)
         fault = fault_of(section, quantity, value)
         if fault is not None:
-            found.append(fault)
-    return found
+            faults.append(fault)
+    return faults
 
 
 def raise_if_any(faults: Sequence[Fault]) -> None:

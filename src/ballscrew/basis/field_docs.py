@@ -90,16 +90,16 @@ def _described(cls: type) -> dict[str, str]:
     """What is known of fields and annotated properties, by name."""
     hints, comments = get_type_hints(cls, include_extras=True), comments_of(cls)
     quantities = quantities_of(cls)
-    found: dict[str, str] = {}
+    values: dict[str, str] = {}
     for name in dict.fromkeys([*_fields(cls), *quantities]):
         quantity, unit = quantities.get(name), unit_of(hints.get(name))
         if quantity is not None:
-            found[name] = words_of(quantity.info, quantity.unit)
+            values[name] = words_of(quantity.info, quantity.unit)
         elif name in comments:
-            found[name] = comments[name]
+            values[name] = comments[name]
         elif unit is not None:
-            found[name] = unit
-    return found
+            values[name] = unit
+    return values
 
 
 def words_of(info: Info, unit: str = "1") -> str:
@@ -120,14 +120,14 @@ def _bounds(info: Info) -> Iterator[str]:
 
 def comments_of(cls: type) -> Mapping[str, str]:
     """The comments ``#:`` above fields, by field, of a dataclass or named tuple and of those that it is made of."""
-    found: dict[str, str] = {}
+    comments: dict[str, str] = {}
     for owner in reversed(cls.__mro__):
         if not vars(owner).keys() & {"__dataclass_fields__", "_fields"}:
             continue
         for comment, name in _COMMENTED.findall(_source(owner)):
             lines = (line.strip().removeprefix("#:").strip() for line in comment.splitlines())
-            found[name] = " ".join(lines).removesuffix(".")
-    return found
+            comments[name] = " ".join(lines).removesuffix(".")
+    return comments
 
 
 def _source(cls: type) -> str:
@@ -137,8 +137,8 @@ def _source(cls: type) -> str:
     """
     module = sys.modules[cls.__module__]
     text = "".join(linecache.getlines(getattr(module, "__file__", None) or "", vars(module)))
-    found = re.search(rf"^class {cls.__name__}\b.*\n(?:[ )].*\n|\n)*", text, re.MULTILINE)
-    return "" if found is None else found[0]
+    match = re.search(rf"^class {cls.__name__}\b.*\n(?:[ )].*\n|\n)*", text, re.MULTILINE)
+    return "" if match is None else match[0]
 
 
 def _item(name: str, text: str) -> str:

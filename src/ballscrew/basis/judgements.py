@@ -50,8 +50,8 @@ class Shown:
         """The place as it stands in JSON: ``number`` is its name."""
         quantity = self.quantity
         units = ("1", "1") if quantity is None else (quantity.unit, quantity.shown_in)
-        found = {"number": self.name, "unit": units[0], "shown_in": units[1], "digits": self.digits}
-        return found if self.decimals is None else found | {"decimals": self.decimals}
+        values = {"number": self.name, "unit": units[0], "shown_in": units[1], "digits": self.digits}
+        return values if self.decimals is None else values | {"decimals": self.decimals}
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -74,15 +74,15 @@ class Sentence:
     #: What stands in the places of the template: a number, words, one of several sentences, or a constant.
     places: Mapping[str, Shown | Words | tuple[Sentence, ...] | str] = dataclasses.field(default_factory=dict)
 
-    def filled(self, found: Mapping[str, Any], words: Mapping[str, str]) -> str:
+    def filled(self, values: Mapping[str, Any], words: Mapping[str, str]) -> str:
         """The sentence with what a formula found at one point, and words."""
 
         def one(place: Shown | Words | tuple[Sentence, ...] | str) -> str:
             if isinstance(place, Shown):
-                return place.text(found[place.name])
+                return place.text(values[place.name])
             if isinstance(place, Words):
                 return words[place.name]
-            return chosen(place, found, words) if isinstance(place, tuple) else place
+            return chosen(place, values, words) if isinstance(place, tuple) else place
 
         return self.template.format(**{name: one(place) for name, place in self.places.items()})
 
@@ -100,9 +100,9 @@ class Sentence:
         return {"template": self.template, "said": self.said or None, "places": places}
 
 
-def chosen(sentences: Sequence[Sentence], found: Mapping[str, Any], words: Mapping[str, str]) -> str:
+def chosen(sentences: Sequence[Sentence], values: Mapping[str, Any], words: Mapping[str, str]) -> str:
     """The first of the sentences whose mask holds at one point, filled."""
-    return next(one.filled(found, words) for one in sentences if not one.said or bool(found[one.said]))
+    return next(one.filled(values, words) for one in sentences if not one.said or bool(values[one.said]))
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,32 +164,32 @@ class Judgement:
     def _left_out(self, name: str) -> Any:
         return np.bool_(False) if name in self.truths else np.float64("nan")
 
-    def text(self, found: Mapping[str, Any], words: Mapping[str, str]) -> str:
+    def text(self, values: Mapping[str, Any], words: Mapping[str, str]) -> str:
         """The sentence that is said at one point."""
-        return chosen(self.sentences, found, words)
+        return chosen(self.sentences, values, words)
 
-    def record(self, found: Mapping[str, Any], words: Mapping[str, str]) -> Record | None:
+    def record(self, values: Mapping[str, Any], words: Mapping[str, str]) -> Record | None:
         """What is said at one point, None where nothing is."""
-        if not found.get("said", True):
+        if not values.get("said", True):
             return None
-        holds = bool(found["holds"]) if "holds" in found else self.holds
-        holds = holds if found.get("judged", True) else None
+        holds = bool(values["holds"]) if "holds" in values else self.holds
+        holds = holds if values.get("judged", True) else None
         fails = holds is False and self.severity_of_failure is not None
         return Record(
             id=self.id,
             subject=self.subject,
-            text=self.text(found, words),
+            text=self.text(values, words),
             severity=self.severity_of_failure or self.severity if fails else self.severity,
             holds=holds,
-            value=float(found["value"]) if "value" in found else None,
-            limit=float(found["limit"]) if "limit" in found else None,
+            value=float(values["value"]) if "value" in values else None,
+            limit=float(values["limit"]) if "limit" in values else None,
             unit=self.unit,
         )
 
     def document(self) -> dict[str, Any]:
         """The row as it stands in JSON, without its formula: ``masks`` and ``numbers`` are what that gives, by name."""
-        found = self.finds({name: True if name in self.truths else 1.0 for name in self.needs}) or {}
-        masks = [name for name, value in found.items() if isinstance(value, bool | np.bool_)]
+        result = self.finds({name: True if name in self.truths else 1.0 for name in self.needs}) or {}
+        masks = [name for name, value in result.items() if isinstance(value, bool | np.bool_)]
         return {
             "id": self.id,
             "subject": self.subject,
@@ -204,7 +204,7 @@ class Judgement:
             "give": self.give or None,
             "source": self.source,
             "masks": masks,
-            "numbers": [name for name in found if name not in masks],
+            "numbers": [name for name in result if name not in masks],
             "sentences": [sentence.document() for sentence in self.sentences],
         }
 
@@ -214,14 +214,14 @@ def judged(rows: Iterable[Judgement], values: Mapping[str, Any]) -> dict[str, Ma
 
     ``values`` are numbers in SI and masks, arrays of them, or values of a tape that records.
     """
-    found = ((row.id, row.finds(values)) for row in rows)
-    return {name: one for name, one in found if one is not None}
+    result = ((row.id, row.finds(values)) for row in rows)
+    return {name: one for name, one in result if one is not None}
 
 
 def said(rows: Iterable[Judgement], values: Mapping[str, Any], words: Mapping[str, str]) -> list[Record]:
     """The records of the rows that have something to say at one point, in their order."""
-    found = ((row, row.finds(values)) for row in rows)
-    records = (row.record(one, words) for row, one in found if one is not None)
+    result = ((row, row.finds(values)) for row in rows)
+    records = (row.record(one, words) for row, one in result if one is not None)
     return [record for record in records if record is not None]
 
 

@@ -165,14 +165,14 @@ def info_of(annotation: object) -> Info | None:
 @functools.cache
 def quantities_of(cls: type) -> Mapping[str, Quantity]:
     """All quantities of a class by name: annotated fields, then annotated (cached) properties."""
-    found: dict[str, object] = dict(get_type_hints(cls, include_extras=True))
+    values: dict[str, object] = dict(get_type_hints(cls, include_extras=True))
     for owner in reversed(cls.__mro__):
         for name, member in vars(owner).items():
             getter = member.fget if isinstance(member, property) else getattr(member, "func", None)
             if isinstance(member, property | functools.cached_property) and getter is not None:
-                found[name] = get_type_hints(getter, include_extras=True).get("return")
+                values[name] = get_type_hints(getter, include_extras=True).get("return")
     quantities: dict[str, Quantity] = {}
-    for name, annotation in found.items():
+    for name, annotation in values.items():
         unit, info = unit_of(annotation), info_of(annotation)
         if unit is not None and info is not None:
             quantities[name] = Quantity(name, unit, info)

@@ -84,5 +84,5 @@ def citations_of(assembly: Any) -> list[str]:
         documented = law if callable(law) and hasattr(law, "__name__") else type(law)
         if callable(law):
             texts.append(documentation(documented))
-    found = {key for text in texts for key in keys_in(text)} | {"Olaru2005"}
-    return [key for key in bibliography() if key in found]
+    result = {key for text in texts for key in keys_in(text)} | {"Olaru2005"}
+    return [key for key in bibliography() if key in result]

@@ -183,7 +183,7 @@ def label(quantity: Quantity) -> str:
 
 #: What stands in the names of units for their usual symbols.
 _SYMBOLS = (
-    (r"\bu(?=m\b|in\b)", "µ"),
+    (r"\bu(?=m\b|in\b|N\b)", "µ"),
     (r"\bdeg(?=[CF]\b)", "°"),
     (r"^deg\b", "°"),
     (r"\^2", "²"),

@@ -41,12 +41,12 @@ def unusual(section: str, part: Any, written: Written = units.shown) -> list[Rec
 
     Relations of fields, such as the lead angle, are quantities of the part as well.
     """
-    found = {
+    values = {
         name: _record(f"{section}.{name}", quantity, value, written)
         for name, quantity in quantities_of(type(part)).items()
         if quantity.info.usual is not None and (value := _farthest_out(quantity, getattr(part, name))) is not None
     }
-    return [record for name, record in found.items() if name not in _RELATED or len(found) == 1]
+    return [record for name, record in values.items() if name not in _RELATED or len(values) == 1]
 
 
 def warn_at_once(section: str, part: Any, also: Callable[[Any, Written], Sequence[Record]] | None = None) -> None:

@@ -131,6 +131,7 @@ def test_carriages_rub_by_the_load_of_each():
         dataclasses.replace(tipped, mass=MASS + 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "central", "half"), [("bearings.fixed.torque", 0.3, 0.1), ("guides.friction_coefficient", 0.003, 0.001)]
 )

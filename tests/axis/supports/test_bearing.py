@@ -9,7 +9,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.axis.supports.bearing import bearing_model
-from ballscrew.physics.components.frame import helix_frame
+from ballscrew.physics.laws.frame import helix_frame
 from support.strategies import MODELS
 
 OIL = bs.Lubricant(viscosity=0.06, density=870.0)

@@ -117,6 +117,7 @@ def test_chosen_by_the_motion():
         assert warmest == pytest.approx(place, abs=nut_length_of(SCREW) / 2 + 0.02)
 
 
+@pytest.mark.slow
 def test_fast_cycles_are_the_spread_heat():
     """Both ways at once: what is generated, grows, and warms up agrees within what a stroke has at its own places."""
     spread, followed = (warm_up(to_and_fro(1000), AIR, time=900.0, outputs=4, moving=way) for way in (False, True))
@@ -146,6 +147,7 @@ def test_slots_are_the_cycle():
     assert all(along.edges[p.slot] - 1e-9 <= p.start % along.edges[-1] + 1e-9 for p in pieces)
 
 
+@pytest.mark.slow
 def test_bands_of_a_nut_that_is_followed():
     """Samples at the central values are the transient itself."""
     slow = moved(Segment(distance=0.3, speed=0.01), Segment(distance=-0.3, speed=0.01))

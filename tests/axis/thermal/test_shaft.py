@@ -110,6 +110,7 @@ def test_heat_into_the_end_of_a_long_bar():
     assert np.log2(errors[0] / errors[1]) > 1.8
 
 
+@pytest.mark.slow
 def test_a_moving_source_far_from_the_ends():
     """The profile that travels with the nut: exp((−U ± √(U² + 4 a β)) ξ / 2a) before and behind it."""
     speed, width = 0.4e-3, 0.1

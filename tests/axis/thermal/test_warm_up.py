@@ -145,6 +145,7 @@ def test_friction_is_not_a_number_where_it_is_not_known(found):
     assert beyond.screw_torque[:-1] == pytest.approx(found.screw_torque[:-1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "nut",
     [

@@ -159,6 +159,7 @@ def test_bands_hold_the_middle_and_say_what_is_lost(duty, central):
     assert lost.known_share[-1] == pytest.approx(lost.steady_share, abs=0.15)
 
 
+@pytest.mark.slow
 def test_uncertain_friction_widens_the_torque(duty):
     one = {"surroundings.ball_conductance": bs.LogNormal(4.0, 1.5)}
     two = one | {"friction.boundary_friction_coefficient": bs.Normal(0.12, 0.03)}

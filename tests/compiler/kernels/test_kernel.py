@@ -2,6 +2,7 @@
 
 import re
 import stat
+import sys
 
 import numpy as np
 import pytest
@@ -237,8 +238,9 @@ def test_vectors_are_vectors():
     assert packed > 20 * single
 
 
-def test_compiling_that_takes_long_is_logged_before_it_starts(caplog, monkeypatch):
-    """Not what is compiled in an instant, and not what is kept already."""
+@pytest.mark.slow
+def test_compiling_that_takes_long_is_logged_before_it_starts(caplog, capsys, monkeypatch):
+    """Not what is compiled in an instant, and not what is kept already; in a console of Python it is also shown."""
     started = []
     # counts what is compiled
     whole = kernels._compile
@@ -256,6 +258,11 @@ def test_compiling_that_takes_long_is_logged_before_it_starts(caplog, monkeypatc
         compiled(program)
         forget()
         compiled(program)
+    shown = capsys.readouterr().err.splitlines()
     lines = text_of(program).count("\n")
     assert caplog.messages == [f"compiling a kernel of {lines} lines: some {lines * kernels.LINE_SECONDS:.0f} s, once"]
     assert started == [0, 1]
+    assert shown == []
+    monkeypatch.setattr(sys, "ps1", ">>> ", raising=False)
+    kernels.code_of(text_of(program))
+    assert capsys.readouterr().err.splitlines() == caplog.messages

@@ -32,6 +32,7 @@ def evaluated(text, points):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [7, 100, 1000])
 def test_the_numbers_are_those_of_one_function(steps, monkeypatch):
     monkeypatch.setattr(pieces, "STEPS", steps)

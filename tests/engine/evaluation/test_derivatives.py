@@ -49,6 +49,7 @@ def scaled(dataset, values, output, name):
     return slope * values[name] / dataset[output].to_numpy()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MODELS)
 def test_against_differences(name):
     """Richardson's extrapolation of central differences of the model itself, which is good to about 1e-10 here."""
@@ -71,6 +72,7 @@ def test_against_differences(name):
             assert np.max(np.abs(scaled(found, values, output, changed) - expected)) < 5e-9, (output, changed)
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 @pytest.mark.parametrize("name", MODELS)
 def test_kernels_and_numpy_agree(name):
@@ -98,6 +100,7 @@ def test_jax_agrees(name):
         assert np.max(np.abs(one - other)) < 1e-10, changed
 
 
+@pytest.mark.slow
 def test_labels_units_and_shapes():
     found = derivatives(
         MODELS["reference"],

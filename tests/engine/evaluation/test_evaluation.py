@@ -17,7 +17,7 @@ from ballscrew.engine.evaluation.evaluation import Evaluation, rectangles
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from ballscrew.physics.components import laws
+from ballscrew.physics.laws import rolling
 from support.quick_kernels import SHIPPED, UNOPTIMISED, set_code_optimisation
 from support.structures import forget_structures
 
@@ -86,6 +86,7 @@ SHORT = [(name, 5000) for name in MODELS if name != "olaru2005-literal"]
 MANY = [pytest.param(name, 100_000, marks=pytest.mark.long) for name in MODELS]
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 @pytest.mark.parametrize(("name", "count"), [*SHORT, *MANY])
 def test_kernels_are_the_model_on_plain_arrays(name, count):
@@ -137,6 +138,7 @@ def test_optimisation_changes_no_bit(name, outputs, points):
         assert np.array_equal(values, levels[1][output], equal_nan=True), output
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 @pytest.mark.parametrize("engine", ["numpy", "compiled"])
 @pytest.mark.parametrize("name", ["olaru2005", "reference"])
@@ -201,6 +203,7 @@ def test_rectangles_cover_a_part_once(start, size, row_length):
     assert places == list(range(part.start, part.stop))
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 @pytest.mark.parametrize("name", MODELS)
 @pytest.mark.parametrize("engine", ["numpy", "compiled"])
@@ -234,7 +237,7 @@ def test_a_law_of_the_same_name_has_another_fingerprint():
 
     def resistance(share):
         def snare_resistance(conditions):
-            return share * laws.snare_resistance(conditions)
+            return share * rolling.snare_resistance(conditions)
 
         return snare_resistance
 
@@ -279,6 +282,7 @@ def test_small_work_is_left_to_numpy(monkeypatch, tmp_path):
     assert Evaluation.of(plan).engine == "numpy"
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 def test_large_work_is_compiled_and_what_is_compiled_is_used():
     subject = Configuration(dataclasses.replace(MODELS["reference"], ball_friction_coefficient=0.0987), SCREW, OIL)
@@ -335,6 +339,7 @@ def test_a_law_that_kernels_do_not_know():
         bs.sweep(model, SCREW, OIL, engine="compiled", **axes)
 
 
+@pytest.mark.slow
 def test_a_single_run_loads_no_compiler():
     """Nor anything else that takes long to load."""
     program = (

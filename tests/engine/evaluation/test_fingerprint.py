@@ -177,6 +177,7 @@ MADE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("held", MADE)
 def test_all_that_a_law_holds_counts(held):
     make = MADE[held]
@@ -228,6 +229,7 @@ def test_the_source_of_the_package_counts(monkeypatch):
     assert evaluation(screw=screw).fingerprint != before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", NUTS)
 def test_losses_of_a_nut_count(kind):
     def fingerprint(scale):
@@ -332,6 +334,7 @@ for subject in (
 """
 
 
+@pytest.mark.slow
 def test_it_is_the_same_in_every_process():
     said = [
         subprocess.run(
@@ -347,6 +350,7 @@ def test_it_is_the_same_in_every_process():
     assert [len(line.split()) for line in said[0].splitlines()] == [1, 1]
 
 
+@pytest.mark.slow
 def test_a_law_sent_to_another_process_is_the_same():
     cloudpickle = pytest.importorskip("cloudpickle", reason="cloudpickle is not installed (the extra cluster)")
     cloudpickle.register_pickle_by_value(sys.modules[__name__])

@@ -7,7 +7,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.outputs import known_outputs
-from ballscrew.physics.components.traits import law_traits
+from ballscrew.physics.laws.traits import law_traits
 from support.structures import forget_structures
 
 LAWS = {

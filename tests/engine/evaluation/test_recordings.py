@@ -15,9 +15,9 @@ from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.evaluation.recordings import UnknownPartError, key_of
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from ballscrew.physics.components import laws
-from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.equations import film
+from ballscrew.physics.laws import ball_chain, rolling
+from ballscrew.physics.laws.ball_chain import ChainBallForce
 
 MODELS = {name: getattr(bs.FrictionModel, name)() for name in ("olaru2005", "corrected", "reference")}
 POINTS = {"axial_load": [100.0, 2000.0], "screw_speed": [0.0, 1.0, 60.0]}
@@ -151,9 +151,9 @@ def test_every_number_counts(name):
         {"oil": {"viscosity": 0.2}},
         {"model": {"friction": bs.ZhouHoeprich(0.1)}},
         {"model": {"ball_friction_coefficient": 0.05}},
-        {"model": {"ball_force": laws.imposed_ball_force, "ball_to_ball_force": 0.05}},
+        {"model": {"ball_force": ball_chain.imposed_ball_force, "ball_to_ball_force": 0.05}},
         {"model": {"ball_force": ChainBallForce(gap=0.0)}},
-        {"model": {"ball_chain": laws.one_neighbour}},
+        {"model": {"ball_chain": ball_chain.one_neighbour}},
         {"sweep": {"lead": 0.006}},
         {"sweep": {"friction.decay": 2.0}},
         {"sweep": {"axial_load": 100.0}},
@@ -185,7 +185,7 @@ def test_a_fixed_value_of_the_sweep_counts(recorded):
 
 def closure(share):
     def snare_resistance(conditions):
-        return share[0] * laws.snare_resistance(conditions)
+        return share[0] * rolling.snare_resistance(conditions)
 
     return snare_resistance
 
@@ -194,11 +194,11 @@ SHARE = 1.0
 
 
 def with_a_global(conditions):
-    return SHARE * laws.snare_resistance(conditions)
+    return SHARE * rolling.snare_resistance(conditions)
 
 
 def with_an_attribute(conditions):
-    return with_an_attribute.share * laws.snare_resistance(conditions)
+    return with_an_attribute.share * rolling.snare_resistance(conditions)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -206,7 +206,7 @@ class WithATable:
     table: dict
 
     def __call__(self, conditions):
-        return self.table["share"] * laws.snare_resistance(conditions)
+        return self.table["share"] * rolling.snare_resistance(conditions)
 
 
 def test_a_law_from_outside_is_never_stale(monkeypatch):
@@ -218,7 +218,7 @@ def test_a_law_from_outside_is_never_stale(monkeypatch):
         monkeypatch.setitem(globals(), "SHARE", 3.0)
 
     with_an_attribute.share = 1.0
-    wrapped = functools.wraps(laws.snare_resistance)(closure(share))
+    wrapped = functools.wraps(rolling.snare_resistance)(closure(share))
     for law in (closure(share), wrapped, with_a_global, with_an_attribute, WithATable(table)):
         model = dataclasses.replace(MODELS["corrected"], elastic_resistance=law)
         share[0] = table["share"] = with_an_attribute.share = 1.0

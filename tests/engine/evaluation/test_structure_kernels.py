@@ -27,7 +27,7 @@ from ballscrew.engine.evaluation.structures import inputs_of_structure, numbers_
 from ballscrew.physics.equations import hertz
 from support.structures import CASES, NUTS, OIL, ROW, assert_same, by_model, case_of, forget_structures, points_of
 
-pytestmark = pytest.mark.compiles
+pytestmark = [pytest.mark.slow, pytest.mark.compiles]
 LOADS, SPEEDS = np.array([0.0, 3e3, -3e3, 12e3, 5e3]), np.array([10.0, 0.0, 40.0, -40.0, 5.0])
 ELASTIC = {
     "double": bs.DoubleNut(preload=4326.0, bodies=bs.Bodies()),

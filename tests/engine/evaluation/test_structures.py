@@ -29,6 +29,7 @@ def played(program, points, wanted):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("nut", "model"), CASES)
 @pytest.mark.implausible
 def test_one_recording_serves_all_numbers(nut, model):

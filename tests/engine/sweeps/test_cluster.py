@@ -21,6 +21,7 @@ pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 distributed = pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
 
 pytestmark = [
+    pytest.mark.slow,
     pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL"),
     # tornado leaves it to the garbage collector to close the sockets of a worker that was killed
     pytest.mark.filterwarnings("ignore:unclosed:ResourceWarning"),

@@ -49,6 +49,7 @@ def cases_of_axes():
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "block_size"), [*((case, size) for case in cases_of_axes() for size in (20, None)), ("two named axes", 1)]
 )
@@ -150,6 +151,7 @@ def test_a_block_has_bounded_size_and_is_not_tiny(shape, seed_screw, seed_oil):
 # -- stopped, and gone on with --------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")
 def test_killed_in_the_middle_it_goes_on_where_it_was(tmp_path, monkeypatch):
     path = tmp_path / "map.zarr"
@@ -175,6 +177,7 @@ def test_killed_in_the_middle_it_goes_on_where_it_was(tmp_path, monkeypatch):
     assert files(path) == files(tmp_path / "whole.zarr")
 
 
+@pytest.mark.slow
 def test_killed_before_any_rename_it_goes_on(swept, tmp_path, monkeypatch):
     """Before each rename the folder is set aside as a kill at that moment would leave it; each goes on to the same."""
     monkeypatch.setattr("ballscrew.engine.sweeps.stream.WRITERS", 1)  # one rename at a time

@@ -231,6 +231,7 @@ def test_what_is_false_is_counted(seed_screw, seed_oil, tmp_path):
 # -- one writer at a time -------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_two_processes_do_not_write_into_one_store(swept, whole, tmp_path):
     path = tmp_path / "map.zarr"
     process = started(path, 0.05)
@@ -264,6 +265,7 @@ def dead_process():
     return process.pid
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["", "{", "dead", "mine"])
 def test_a_lock_left_behind_is_taken_over(text, swept, whole, tmp_path):
     """Whoever wrote it is dead, though another process may have its number now: the system's lock tells."""

@@ -255,6 +255,7 @@ def constant_user_law(conditions):
     return 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "law",
     [

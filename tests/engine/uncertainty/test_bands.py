@@ -27,9 +27,9 @@ from ballscrew.engine.uncertainty.default_uncertainties import (
 )
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
 from ballscrew.engine.uncertainty.sampling import JointNormal
-from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force
-from ballscrew.physics.components.mixed_friction import BalanSharing
-from ballscrew.physics.components.rolling_laws import houpert_rolling
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce, imposed_ball_force
+from ballscrew.physics.laws.friction import BalanSharing
+from ballscrew.physics.laws.rolling import houpert_rolling
 from ballscrew.physics.solvers.load_distribution import preload_growth, preload_of
 from ballscrew.questions.band import compute
 
@@ -103,6 +103,7 @@ def test_wide_distributions_against_random_samples(drive):
         assert others[2] < high < others[3], output
 
 
+@pytest.mark.slow
 def test_correlated_inputs(of_seed, seed_screw, seed_oil):
     """σ² = gᵀ C g, far from the sum of squares where the errors are nearly opposite."""
     names = ("friction.boundary_friction_coefficient", "viscosity")
@@ -224,6 +225,7 @@ def test_independent_slots_against_all_combinations(example):
 # -- curves, nuts, limits -------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_curve_goes_through_the_band(drive):
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     options = {
@@ -240,6 +242,7 @@ def test_a_curve_goes_through_the_band(drive):
         assert [end[i] for end in curve.parameters] == pytest.approx(list(found.parameters), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_axes_have_the_band_of_each_point(drive):
     """Over a load and a diameter of the balls, in SI and with names, as a sweep is."""
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
@@ -267,6 +270,7 @@ def test_axes_have_the_band_of_each_point(drive):
             assert float(here[name]) == pytest.approx(one[name].value, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_axes_have_the_share_of_invalid_samples_of_each_point(drive):
     """From a load at which most samples are valid to one at which none is, and between."""
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}

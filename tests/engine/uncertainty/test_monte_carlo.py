@@ -114,6 +114,7 @@ def test_the_same_samples_as_a_sweep(sampled, seed_screw, seed_oil, engine, samp
     assert ds.invalid_share == 1 - expected.valid.to_numpy().mean()
 
 
+@pytest.mark.slow
 def test_any_number_of_threads(sampled, engine):
     """The same bits; the last block is not full."""
     options = {"distributions": INPUTS, "samples": 3 * BLOCK + 9999, "seed": 3, "engine": engine}
@@ -188,6 +189,7 @@ def test_engines_agree(sampled, name):
         assert np.abs(fast[variable] - plain[variable]).max() <= 1e-10 * size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "samples"), [("numpy", 10**6), pytest.param("compiled", 4 * 10**6, marks=pytest.mark.compiles)]
 )

@@ -11,10 +11,12 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.evidence.validation.sets import SETS
-from ballscrew.physics.components.laws import ProportionalBallForce
 from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, calibration, calibrations, with_parameters
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce
 from ballscrew.questions.validate import compute as validation
+
+pytestmark = pytest.mark.slow
 
 SCRIPT = Path(__file__).parents[3] / "benchmarks" / "fit_calibration.py"
 STORED = calibration("rexroth-2006")

@@ -8,7 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.evidence.validation.entries import Conditions
-from ballscrew.physics.components.mixed_friction import RunInSharing
+from ballscrew.physics.laws.friction import RunInSharing
 
 BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 
@@ -27,6 +27,7 @@ def cells(table):
     return [[cell.strip() for cell in line.strip("| \n").split("|")] for line in table.splitlines()]
 
 
+@pytest.mark.slow
 def test_each_row_is_in_one_size_class(script):
     _, _, *lines = cells(script.strata_table())
     counted = {line[0]: int(line[1]) for line in lines}

@@ -134,6 +134,7 @@ def combination_covered(seeds, *levels):
     return np.transpose(hits)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("quick_baselines")
 def test_the_combination_that_is_identified_has_an_interval_and_its_parts_have_none():
     for level, hits in zip((0.5, 0.95), combination_covered(SEEDS, 0.5, 0.95), strict=True):
@@ -241,6 +242,7 @@ READ = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", READ)
 def test_the_model_tells_what_the_torque_is_and_which_signs_it_has(how):
     measured, signed, words = READ[how]
@@ -280,6 +282,7 @@ def test_a_log_of_one_direction_has_a_reading_too():
         assert found.estimates[FRICTION].value == pytest.approx(TRUE_FRICTION, abs=0.012)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "words"), [("friction", "misses something"), ("drive", "signs, units")])
 def test_signs_that_are_mixed_are_no_fault_but_are_told(kind, words):
     """Of friction alone the wrong signs look like noise that grows with the torque, but residuals give them away."""
@@ -298,6 +301,7 @@ def test_temperatures_change_the_oil():
     assert fit(PAPER, SCREW, oil, columns, [FRICTION]).residual_rms > 1.05 * found.residual_rms
 
 
+@pytest.mark.slow
 def test_derivatives_of_the_fit_are_those_of_its_torque():
     reference = bs.FrictionModel.reference()
     found = fit(reference, SCREW, OIL, log(truth(reference), rows=50), [FRICTION, "screw_conformity"])

@@ -14,6 +14,7 @@ SPEEDS = np.tile([5.0, 20.0, 50.0, 100.0, 200.0], 4)
 TORQUE = MODEL(SCREW, OIL, axial_load=LOADS, screw_speed=SPEEDS).screw_torque
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("free", "factor", "bounds"),
     [

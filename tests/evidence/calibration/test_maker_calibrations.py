@@ -13,6 +13,8 @@ from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.validate.compute import shipped_rows
 
+pytestmark = pytest.mark.slow
+
 BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 SPLITS = tomllib.loads(resources.files("ballscrew").joinpath("data/validation/splits.toml").read_text(encoding="utf-8"))
 TWO_CONTACTS = ("double", "offset")

@@ -155,6 +155,7 @@ def test_the_same_every_time(both):
     assert one.random_volume == other.random_volume
 
 
+@pytest.mark.slow
 def test_it_teaches_more_than_random_tests_when_it_is_run():
     """One scenario of the benchmark, with ten random tests for fifty: run on the truth, and fitted again."""
     scenario = "friction and seals, high loads only"

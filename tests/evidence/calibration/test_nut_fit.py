@@ -73,6 +73,7 @@ def covered(name, seeds):
     return list(zip(*hits, strict=True))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("quick_baselines")
 @pytest.mark.parametrize("name", CASES)
 def test_intervals_hold_the_preload(name):
@@ -108,6 +109,7 @@ def test_preload_and_friction_at_one_operating_point_are_one_number():
     assert found.next_test().best_volume < 0.3
 
 
+@pytest.mark.slow
 def test_a_range_of_loads_past_lift_off_tells_them_apart():
     found = fit(MODEL, SCREW, OIL, nut_log(WITHOUT_SEALS, 2, 3 * LIFT_OFF, rows=300), [PRELOAD, FRICTION])
     for number, true in ((PRELOAD, TRUE_PRELOAD), (FRICTION, 0.1)):
@@ -150,6 +152,7 @@ def test_rows_past_lift_off_are_said():
 ELASTIC = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=TRUE_PRELOAD, bodies=bs.Bodies()))
 
 
+@pytest.mark.slow
 def test_a_nut_of_elastic_bodies_is_fitted(quick_baselines):
     """Friction and seals are those of the nut, not those of rigid bodies, which would take the rest as friction."""
     model = MODELS["reference"]
@@ -217,6 +220,7 @@ def fit_from_elsewhere(data):
     return found, (found.estimates[FRICTION].value, found.estimates[PRELOAD].value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SIGNED)
 def test_exact_torques_return_the_truth_whatever_the_signs_of_the_loads(name, quick_baselines, monkeypatch):
     monkeypatch.setattr(next_tests, "SPEED_COUNT", 2)
@@ -233,12 +237,14 @@ def test_exact_torques_return_the_truth_whatever_the_signs_of_the_loads(name, qu
     assert {*np.sign(tests)} == {*np.sign(SIGNED[name])}
 
 
+@pytest.mark.slow
 def test_loads_that_are_logged_with_the_opposite_sign_are_turned_by_the_torque(quick_baselines):
     found, values = fit_from_elsewhere(signed_log(SIGNED["negative"], column=lambda load, _: -load))
     assert values == pytest.approx((0.12, 1113.0), rel=1e-3)
     assert "opposite sign" in found.rows.convention.description
 
 
+@pytest.mark.slow
 def test_sizes_of_friction_torques_and_loads_are_taken_as_positive_and_that_is_said(quick_baselines):
     data = signed_log((200.0, 2000.0))
     load, speed = data["axial_load"], data["screw_speed"]

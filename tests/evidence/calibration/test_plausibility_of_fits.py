@@ -31,6 +31,7 @@ def logs():
     return module.LOGS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "number", "limit"),
     [

@@ -49,6 +49,7 @@ def test_where_the_model_is_nearly_a_straight_line_the_errors_are_those_of_the_c
     assert high - low == pytest.approx(2 * 1.96 * deviation, rel=0.15)
 
 
+@pytest.mark.slow
 def test_the_run_says_how_far_it_can_be_trusted(samples):
     assert 1 < samples.autocorrelation_time < 100
     assert 0.2 < samples.acceptance < 0.95
@@ -62,6 +63,7 @@ def test_the_same_seed_gives_the_same_samples(found):
     assert not np.array_equal(one, other)
 
 
+@pytest.mark.slow
 def test_samples_keep_within_the_bounds(found):
     low = found.estimates[FRICTION].value
     bounded = fit(
@@ -72,6 +74,7 @@ def test_samples_keep_within_the_bounds(found):
     assert drawn.std() > 0
 
 
+@pytest.mark.slow
 def test_a_prior_alone_is_sampled_where_the_log_says_nothing():
     name = "lubricant.heat_capacity"
     columns = log(truth(), rows=30, both=False, outliers=0, drift=0)

@@ -176,6 +176,7 @@ def test_the_noise_of_few_rows_is_no_smaller_than_it_is(rows):
 # -- the fit --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_for_normal_noise_the_fit_is_nearly_that_of_least_squares():
     """Over many logs: variances of a mean by the fit and by the plain mean are as 1/0.95 to 1."""
     columns = np.ones((100, 1))
@@ -221,6 +222,7 @@ def test_where_the_fit_rests_the_pulls_are_in_balance():
     np.testing.assert_allclose(found.torques, columns @ found.values)
 
 
+@pytest.mark.slow
 def test_noise_that_grows_with_the_torque_is_weighted_as_it_should_be():
     """Weighted least squares with the true noise is the best there is; the plain one is far off it here."""
     x = np.linspace(0.01, 1, 300)

@@ -17,6 +17,8 @@ from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, U
 from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, log, truth
 
+pytestmark = pytest.mark.slow
+
 PAPER, REFERENCE = bs.FrictionModel.olaru2005(), bs.FrictionModel.reference()
 FRICTION, SEALS = "boundary_friction_coefficient", "constant_torque"
 VG_100 = bs.Lubricant.from_grade("ISO VG 100")

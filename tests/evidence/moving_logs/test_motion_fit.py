@@ -34,6 +34,7 @@ def test_without_noise_the_truth_comes_out():
     np.testing.assert_allclose(found.values, TRUE, rtol=1e-3)
 
 
+@pytest.mark.slow
 def test_intervals_hold_where_ordinary_ones_do_not():
     """40 logs with noise that lasts 0.2 s: an interval of 95 % misses more than 8 of 40 in one of 10 000 runs."""
     covered, ordinary = np.zeros(4), np.zeros(4)
@@ -134,10 +135,12 @@ def test_a_log_whose_ramps_are_too_slow_does_not_tell_the_mass():
     assert any(record.id == "fit.no_screw_model" for record in found.warning_records)
 
 
+@pytest.mark.slow
 def test_gravity_and_the_zero_of_the_sensor_are_named_as_one(of_the_screw):
     assert any(record.id == "fit.gravity_or_offset" for record in of_the_screw.warning_records)
 
 
+@pytest.mark.slow
 @pytest.mark.implausible
 def test_a_screw_with_more_friction_than_the_axis_is_said_not_to_fit():
     heavy = dataclasses.replace(SCREW_OF, nut=bs.DoubleNut(preload=5000.0))

@@ -146,6 +146,7 @@ def test_a_cell_that_is_no_number_is_named(tmp_path):
     assert np.isnan(read_moving(path, lead=LEAD, keep_going=True).position[4])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "content", [b"", b"\n \n", b"\x00" * 600, b"MATLAB 5.0 MAT-file" + b"\xff" * 600, b"t,q,F\n", b"PK\x03\x04oops"]
 )

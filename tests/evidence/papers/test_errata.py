@@ -51,6 +51,7 @@ def percent_above(value, reference):
     return 100 * (value / reference - 1)
 
 
+@pytest.mark.slow
 def test_every_verdict_but_right_is_shown(equation_table):
     here = {
         address

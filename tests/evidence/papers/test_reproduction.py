@@ -208,6 +208,7 @@ def test_folder_is_complete(written):
 DOTS = 150 / 72
 
 
+@pytest.mark.slow
 def test_pictures_are_pictures(written):
     out, _, _ = written
     for name in (*NAMES, "preloaded_nut"):
@@ -232,6 +233,7 @@ def test_data_can_be_read_back(written):
         xr.testing.assert_allclose(data.load(), paper.curves())
 
 
+@pytest.mark.slow
 def test_words(written):
     text = (written[0] / "claims.md").read_text(encoding="utf-8")
     assert "cannot be checked" in text
@@ -246,6 +248,7 @@ def test_words(written):
         assert f"{name}.svg" in text
 
 
+@pytest.mark.slow
 def test_same_bytes_on_every_run(monkeypatch, written, tmp_path):
     """A second time, with one figure of each kind."""
     monkeypatch.setattr(ball, "PLOTS", ball.PLOTS[:1])
@@ -259,6 +262,7 @@ def test_same_bytes_on_every_run(monkeypatch, written, tmp_path):
         assert here == there, path.name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("interruption", "existing"), [(RuntimeError, True), (KeyboardInterrupt, False)])
 def test_nothing_half_written(monkeypatch, tmp_path, interruption, existing):
     def broken(data):
@@ -332,6 +336,7 @@ def nut():
     return nuts.preloaded_nut()
 
 
+@pytest.mark.slow
 def test_nut_of_the_case_file(written, nut):
     """The file beside the page is the case of the page; its torque is what the model gives."""
     found = case_file.load(written[0] / "preloaded_nut.toml")
@@ -351,6 +356,7 @@ def test_each_rule_is_beside_the_band(nut):
         assert one.is_in_band == (low <= one.beside.by_rule.torque <= high)
 
 
+@pytest.mark.slow
 def test_page_of_the_nut(written):
     page = (written[0] / "preloaded_nut.md").read_text(encoding="utf-8")
     assert "| **reference model** |" in page

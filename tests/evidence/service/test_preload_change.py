@@ -36,6 +36,7 @@ def within(found, left):
 # -- pairs ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_preload_of_60_percent_is_found_within_its_interval():
     found = [change(*pair(PAPER, seed, 0.6)) for seed in range(SEEDS)]
     assert holds_enough([within(one, 0.6) for one in found])
@@ -90,6 +91,7 @@ def exact():
     return [log(EXACT, share * PRELOAD, seed, sensor_error=0.0) for seed, share in enumerate((1.0, 0.6))]
 
 
+@pytest.mark.slow
 def test_known_numbers_give_the_truth(exact):
     found = change(*exact, distributions={})
     # the error of the model, 2 % at ten parts of each log, and 2 K of each
@@ -99,6 +101,7 @@ def test_known_numbers_give_the_truth(exact):
     assert all(one.residual_rms == pytest.approx(0.006, rel=0.3) for one in (found.new, found.worn))
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_answer(exact):
     one, other, another = (change(*exact, distributions={}, seed=seed) for seed in (0, 0, 1))
     assert one.ratio == pytest.approx(other.ratio, rel=1e-6)

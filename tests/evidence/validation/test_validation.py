@@ -106,6 +106,7 @@ def test_a_row_is_the_nut_at_its_preload(found):
     assert (apart.name, apart.maximum) == ("40x40x6-3 at 2 %", 0.30)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "kind", "n", "mean", "share"),
     [

@@ -258,6 +258,7 @@ def test_settings_are_never_lost(example, ballscrew):
 ENCODINGS = ["ascii", *(pytest.param(name, marks=pytest.mark.long) for name in ("cp1252", "latin-1"))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ENCODINGS)
 def test_terminals_of_other_encodings(encoding, example, ballscrew):
     """What a terminal cannot show is written otherwise; the answer is complete."""
@@ -283,6 +284,7 @@ def test_a_full_output_is_one_line(example, commands, tmp_path):
         assert "Traceback" not in errors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["nc", "xlsx", "csv"])
 def test_a_really_full_disk(suffix, tmp_path, example):
     """A limit on the size of files stands for the disk: one line, no crash in a library, nothing left."""

@@ -14,10 +14,10 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.uncertainty.bands import Interval, OutputBand
 from ballscrew.faces.sheets import pictures, report_blocks
-from ballscrew.physics.components.rolling_laws import biboulet_houpert_rolling as reference_rolling
-from ballscrew.physics.components.traits import LawTraits, traits_of
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.rolling import biboulet_houpert_rolling as reference_rolling
+from ballscrew.physics.laws.traits import LawTraits, traits_of
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as documents
 from ballscrew.questions.band.sheet import sheet
@@ -159,6 +159,7 @@ def test_a_whole_nut(example, ballscrew):
     assert "loads" in found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("setting", "words"),
     [
@@ -208,6 +209,7 @@ def test_pictures(kind, drive, ballscrew, tmp_path):
     assert f"band.{kind}: 64 samples of 16 uncertain inputs" in process.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "axis"),
     [

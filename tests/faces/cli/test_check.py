@@ -200,6 +200,7 @@ def test_ones_own_screw_is_the_one_shipped(ballscrew, tmp_path):
     assert own["ratings"] == shipped["ratings"]
 
 
+@pytest.mark.slow
 def test_all_rows_of_a_table(ballscrew):
     process = ballscrew("check", "--rows", SCREWS)
     assert process.returncode == 0, process.stderr
@@ -283,6 +284,7 @@ def test_a_check_that_fails_is_no_error(ballscrew):
     assert "FAILS" in process.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", [(NAME, "--preload", "7 %", "--nut", "offset-lead"), (EXAMPLE,), ("--all",)])
 def test_no_line_is_wider_than_the_widest(ballscrew, what):
     process = ballscrew("check", *what)

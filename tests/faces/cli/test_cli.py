@@ -353,6 +353,7 @@ def test_schema_describes_the_example(example, ballscrew):
     ]
 
 
+@pytest.mark.slow
 def test_run_loads_nothing_heavy(example, ballscrew):
     """A single point must not wait for xarray, pandas, matplotlib or a compiler."""
     code = (
@@ -400,6 +401,7 @@ def test_front_door():
     assert np.isfinite(paper_result(bs.FrictionModel.corrected()).screw_torque)
 
 
+@pytest.mark.slow
 def test_citations_survive_without_docstrings(ballscrew, example):
     """-OO leaves docstrings out, in which the laws name their sources."""
     optimised = subprocess.run(

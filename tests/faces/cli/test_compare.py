@@ -283,6 +283,7 @@ def test_bad_places_for_a_picture(example, tmp_path, ballscrew):
     assert sorted(tmp_path.iterdir()) == before
 
 
+@pytest.mark.slow
 def test_a_full_disk_leaves_the_old_picture(example, tmp_path):
     """A limit on the size of files stands for the disk."""
     target = tmp_path / "spread.png"
@@ -295,6 +296,7 @@ def test_a_full_disk_leaves_the_old_picture(example, tmp_path):
     assert list(tmp_path.iterdir()) == [target]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("load", [4000.0, 2.0, 0.0])
 def test_what_a_picture_says(load, paper, tmp_path):
     case = dataclasses.replace(paper, operation=dataclasses.replace(paper.operation, axial_load=load))

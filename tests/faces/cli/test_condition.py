@@ -27,6 +27,7 @@ def document(done):
     return json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
 
 
+@pytest.mark.slow
 def test_a_table(ballscrew, tmp_path):
     done = ballscrew("condition", TABLE, "--case", CASE, "--json", "--to", tmp_path / "nut.svg")
     found = document(done)
@@ -123,6 +124,7 @@ REFUSALS = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("arguments", "words"), REFUSALS.values(), ids=REFUSALS)
 def test_refused_in_lines(ballscrew, arguments, words):
     done = ballscrew(*arguments)
@@ -132,6 +134,7 @@ def test_refused_in_lines(ballscrew, arguments, words):
     assert words in done.stderr
 
 
+@pytest.mark.slow
 def test_the_example_table_is_what_its_script_makes():
     script = [sys.executable, str(EXAMPLES / "make_condition_table.py")]
     done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)

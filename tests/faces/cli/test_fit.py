@@ -114,6 +114,7 @@ def test_names_may_come_with_commas_or_one_by_one(fit, log):
     assert_same(*values, ITERATED)
 
 
+@pytest.mark.slow
 def test_as_a_program(case, log):
     """The real command in a process of its own, as programs call it."""
     program = [sys.executable, "-m", "ballscrew.faces.cli", "fit", str(log()), "--case", str(case), "--json"]
@@ -190,6 +191,7 @@ def test_numbers_that_are_not_identified_are_written_without_an_error(fit, log):
     assert "±" not in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("data", "free", "reason"),
     [
@@ -219,6 +221,7 @@ def test_json_stays_alone_on_its_stream(fit, log):
     assert {file.name for file in done.place.iterdir()} == {"fitted.toml", "fit.svg"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["a.png", "a.svg", "a.pdf"])
 def test_pictures(name, fit, log):
     done = fit(log(), "--picture", name)
@@ -426,6 +429,7 @@ def test_several_faults_are_told_at_once(fit, log):
     assert len(refused(fit(log(), *options), "--kind")) == 3
 
 
+@pytest.mark.slow
 def test_a_nut_of_elastic_bodies_is_fitted(fit, log, tmp_path):
     process = fit(
         log(columns(20)), "--to", tmp_path / "fitted.toml", "--keep-going", case=EXAMPLES / "catalogue_screw.toml"
@@ -463,6 +467,7 @@ def test_the_estimates_of_a_log_with_temperatures_have_their_error_in_them(balls
     assert usual["covariance"]["matrix"][0][0] == pytest.approx(usual["estimates"][FRICTION]["std"] ** 2)
 
 
+@pytest.mark.slow
 def test_the_text_says_what_part_of_the_errors_it_makes(ballscrew):
     said = ballscrew(*RIG, "--free", f"{FRICTION},constant_torque").stdout
     assert (
@@ -474,6 +479,7 @@ def test_the_text_says_what_part_of_the_errors_it_makes(ballscrew):
     assert "none of the oil temperature" in none
 
 
+@pytest.mark.slow
 def test_the_error_of_a_temperature_that_the_case_has_is_that_of_the_case(ballscrew, tmp_path):
     import pandas
 
@@ -506,6 +512,7 @@ def test_an_error_of_the_temperature_that_is_none_is_refused(ballscrew, text, wo
 # -- numbers that no screw has -----------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_fit_of_a_sensor_that_is_off_says_so_first_and_so_do_predictions_with_it(ballscrew, tmp_path):
     """A log of one direction whose zero is off by -0.2 N m: the constant torque is a loss that drives the screw."""
     import pandas
@@ -544,6 +551,7 @@ def test_the_reasons_sum_to_the_rows_that_are_not_used(ballscrew):
     assert len(found["left_out"]) == 3
 
 
+@pytest.mark.slow
 def test_a_log_without_a_column_of_the_load_is_one_of_no_load(ballscrew, tmp_path):
     import pandas
 

@@ -91,6 +91,7 @@ TOLD = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TOLD)
 def test_what_a_log_cannot_tell_is_said_and_the_rest_is_fitted(name, fit, log):
     data, words = TOLD[name]
@@ -163,6 +164,7 @@ def test_the_example_log_says_that_it_is_synthetic_and_is_small():
     assert sum(row.count(",,") or row.endswith(",") for row in rows) == 12
 
 
+@pytest.mark.slow
 def test_the_example_is_found_out(fit):
     """The truth is that of the script; without the torque of the seals the residuals give it away."""
     log, case = EXAMPLES / "rig_log.csv", EXAMPLES / "rig.toml"

@@ -13,6 +13,8 @@ import pytest
 
 from support.commands import ROOT
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = ROOT / "examples"
 COMPILING = re.compile(r"compiling a kernel of \d+ lines: some \d+ s, once")
 #: What moves the cursor and colours a terminal.

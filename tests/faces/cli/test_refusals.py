@@ -21,6 +21,7 @@ except SystemExit as end:
 OF_ANSWERS = {"scipy", "xarray", "rich", "matplotlib"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "log", "arguments", "words", "without"),
     [

@@ -10,6 +10,8 @@ import pytest
 
 from support.commands import ROOT
 
+pytestmark = pytest.mark.slow
+
 CASE = (ROOT / "examples" / "feed_drive.toml").read_text(encoding="utf-8")
 NUT = '\n[nut]\ntype = "double"\npreload = "3 kN"\n[bodies]\n'
 

@@ -11,6 +11,7 @@ from support.pictures import drawn
 CASE = ROOT / "examples" / "service.toml"
 
 
+@pytest.mark.slow
 def test_json_and_picture(ballscrew, tmp_path):
     done = ballscrew("reversal", CASE, "--json", "--inertia", "2e-3 kg m^2", "--to", tmp_path / "turned.svg")
     assert done.returncode == 0, done.stderr
@@ -31,6 +32,7 @@ def test_json_and_picture(ballscrew, tmp_path):
     assert "turned.svg" in done.stderr
 
 
+@pytest.mark.slow
 def test_words_from_rest(ballscrew):
     done = ballscrew("reversal", CASE, "--from-rest", "--travel", "20 um", "--set", "operation.screw_speed=10 rpm")
     assert done.returncode == 0, done.stderr

@@ -11,6 +11,7 @@ EXAMPLE = ROOT / "examples" / "service.toml"
 SHORT = ["--set", "screw.loaded_balls=20", "--set", "nut.preload=1.5 kN", "--return-balls", "10", "--turns", "6"]
 
 
+@pytest.mark.slow
 def test_all_forms(ballscrew, tmp_path):
     picture = tmp_path / "ripple.svg"
     fault = ["--fault", "spall=2 mm x 2 um"]

@@ -161,6 +161,7 @@ def test_faulty_rows(ballscrew, place):
     assert not (place / "out.csv").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
@@ -190,6 +191,7 @@ def test_options_that_do_not_go_together(options, expected, ballscrew, place):
 # -- check ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_check(ballscrew, place):
     process = ballscrew("check", "case.toml", "--rows", "own.csv", "--to", "out.xlsx")
     assert process.returncode == 0, process.stderr
@@ -211,6 +213,7 @@ def test_check(ballscrew, place):
 # -- sweep ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_sweep_has_a_dimension_screw(ballscrew, place):
     command = ("sweep", "case.toml", "--rows", "own.csv", "--vary", "axial_load=0, 4 kN")
     process = ballscrew(*command, "--to", "map.nc")
@@ -315,6 +318,7 @@ def test_fit(ballscrew, rig):
     assert calibrated.model.friction.boundary_friction_coefficient == pytest.approx(found[1]["value"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_fit_that_is_warned_against_is_the_only_one_that_is_not_written(ballscrew, rig):
     command = ("fit", "--case", "case.toml", "--rows", "rigs.csv", "--to", "fits", "--json")
     path = rig / "logs" / "a.csv"

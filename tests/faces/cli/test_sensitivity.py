@@ -205,6 +205,7 @@ def test_bars_are_the_numbers(found, case):
 # -- bad input ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "line"),
     [

@@ -51,6 +51,7 @@ def test_two_logs(ballscrew, tmp_path):
     assert "nut.svg: 2 preloads" in done.stderr
 
 
+@pytest.mark.slow
 def test_words(ballscrew):
     done = ballscrew("service", NEW, WORN, *QUICK, "--tolerance", "0.2", environment={"COLUMNS": "110"})
     assert done.returncode == 0, done.stderr

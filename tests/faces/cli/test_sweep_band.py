@@ -27,6 +27,7 @@ def swept(case, vary, outputs=("screw_torque", "efficiency"), options=OPTIONS, d
     return with_band(case, plan, sweep.sweep(case, plan), options, done)
 
 
+@pytest.mark.slow
 def test_the_document_has_low_and_high_beside_each_output(ballscrew):
     """As the command of one point says, which has the same samples."""
     options = ("--band", "--samples", "128", "--json")
@@ -46,6 +47,7 @@ def test_the_document_has_low_and_high_beside_each_output(ballscrew):
     assert set(found["outputs"]) == {*sweep.BAND_OUTPUTS, "valid"}
 
 
+@pytest.mark.slow
 def test_the_document_has_narrower_intervals_of_the_same_samples(ballscrew):
     """Those of a band of their level; a file has none of them."""
     vary = ("--vary", "screw_speed=300, 1500 rpm", "--output", "screw_torque", "--samples", "128")
@@ -69,6 +71,7 @@ SECTIONS = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("example", "axes", "settings"),
     [
@@ -124,6 +127,7 @@ def test_nothing_uncertain_is_a_band_of_other_laws_alone():
         assert [float(alone[f"screw_torque_{end}"][place]) for end in ("low", "high")] == pytest.approx(list(one.both))
 
 
+@pytest.mark.slow
 def test_files_have_the_ends_beside_the_values(tmp_path, ballscrew):
     wanted = ("--vary", "axial_load=1000, 2000 N", "--output", "screw_torque", "--samples", "64")
     rows = list(csv.reader(io.StringIO(ballscrew("sweep", DRIVE, *wanted).stdout)))

@@ -55,6 +55,7 @@ def test_a_store_holds_what_netcdf_does(example, ballscrew, tmp_path):
         assert set(netcdf.attrs) == set(store.attrs)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_built_is_said_from_the_store(ballscrew, tmp_path):
     drive = ROOT / "examples" / "feed_drive.toml"
     axes = ("--vary", "temperature=20:60:5 degC", "--vary", "lead=10, 5 mm")
@@ -78,6 +79,7 @@ def test_a_complete_store_is_left_as_it_is(example, ballscrew, tmp_path):
     fault(other, "sweep.to: holds another sweep (lubricant viscosity 0.1, not 0.2) · choose another name, or remove")
 
 
+@pytest.mark.slow
 def test_damage_is_said_and_repaired(example, ballscrew, tmp_path):
     first = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
     before = files(tmp_path / "map.zarr")
@@ -122,6 +124,7 @@ def test_without_zarr_the_extra_is_named(example, tmp_path, monkeypatch):
         sweeps.plan(case_file.load(example), [], [], tmp_path / "map.zarr")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="an interrupt is sent otherwise there")
 def test_an_interrupt_ends_with_words_and_130(example, tmp_path):
     # where tests run in the background, interrupts are ignored unless asked for
@@ -177,6 +180,7 @@ def test_a_scheduler_needs_a_store(example, ballscrew):
         fault(process, "--scheduler: needs a store (tcp://127.0.0.1:8786) · add --to map.zarr")
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_does_not_answer(example, ballscrew, tmp_path):
     pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
     for address in ("tcp://127.0.0.1:1", "nonsense"):

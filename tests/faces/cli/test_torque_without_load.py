@@ -169,6 +169,7 @@ def test_seals_of_another_maker_are_called_so(tmp_path, ballscrew):
     assert "of which seals (standard seals of Rexroth2006, not of THK) 0.4 N m" in text
 
 
+@pytest.mark.slow
 def test_the_source_of_seals_is_in_every_document(tmp_path, ballscrew):
     table = tmp_path / "own.csv"
     table.write_text(OWN, encoding="utf-8")

@@ -22,6 +22,8 @@ from ballscrew.questions.validate import sheet as sheets
 from support.documents import assert_same
 from support.validation_sets import every_set
 
+pytestmark = pytest.mark.slow
+
 HEADINGS = (
     "nominal_diameter_mm,lead_mm,ball_diameter_mm,circuits,dynamic_load_rating_N,static_load_rating_N,"
     "no_load_torque_2pct_max_Nm,no_load_torque_5pct_min_Nm,no_load_torque_5pct_max_Nm"

@@ -65,6 +65,7 @@ def records(document, kind):
     return {record["id"]: record for record in document[kind]}
 
 
+@pytest.mark.slow
 def test_example_in_all_forms(ballscrew, tmp_path):
     """The cycle of the example, four hours warm and one cool: face of the issue, tables and picture."""
     done = ballscrew("warm-up", EXAMPLE, "--hours", "4", "--cool-down", "1", "--json", "--to", "all")
@@ -108,6 +109,7 @@ def test_example_in_all_forms(ballscrew, tmp_path):
     assert (tmp_path / "all" / "warm_up.xlsx").read_bytes().startswith(b"PK")
 
 
+@pytest.mark.slow
 def test_band_in_all_forms(ballscrew, tmp_path):
     """JSON, text, picture and table of a band; a number that the file gives with its own band is the case's."""
     (tmp_path / "case.toml").write_text(POINT + 'ball_conductance = "4 ± 1 W/K"\nshaft_share = "0.5 ± 0"\n', "utf-8")
@@ -178,6 +180,7 @@ def test_an_operating_point_goes_to_and_fro(case):
     assert {name for name in SERIES if not name.startswith("heat_")} <= set(written["units"])
 
 
+@pytest.mark.slow
 def test_a_cycle_like_that_of_the_drift_test(ballscrew, tmp_path):
     """Full stroke at half of rapid, with an hour of rest; drift at both ends and the middle."""
     done = ballscrew("warm-up", EXAMPLE, "--drift-cycle", "--json")
@@ -210,6 +213,7 @@ def test_stroke_and_length_are_those_of_the_case(case):
     assert "shaft of 0.8 m: the length of [installation]" in report.assumed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "length"),
     [
@@ -357,6 +361,7 @@ def test_an_oil_without_a_temperature_is_refused(case):
         warmed_up(case(written))
 
 
+@pytest.mark.slow
 def test_band_and_comparison_with_self_heating(ballscrew, tmp_path, case):
     """About the warm point; temperature and preload are those of samples of the surroundings, not independent."""
     (tmp_path / "case.toml").write_text(POINT + DOUBLE, encoding="utf-8")
@@ -383,6 +388,7 @@ def test_band_and_comparison_with_self_heating(ballscrew, tmp_path, case):
     assert compared["assumed"] == found["assumed"]
 
 
+@pytest.mark.slow
 def test_sweep_with_self_heating(ballscrew, tmp_path):
     """Each point as ``run --self-heating`` has it; assumptions and runaway on the error stream."""
     (tmp_path / "case.toml").write_text(POINT, encoding="utf-8")
@@ -408,6 +414,7 @@ def test_sweep_with_self_heating(ballscrew, tmp_path):
         assert line in refused.stderr.splitlines()
 
 
+@pytest.mark.slow
 def test_fit_with_self_heating(ballscrew, tmp_path, case):
     """Of torques made warm by their own heat the fit finds the coefficient again; without it, it does not."""
     truth, loaded = 0.15, case(POINT)

@@ -11,7 +11,7 @@ from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files import oil_library as oils
-from ballscrew.physics.components.nut_losses import Seals
+from ballscrew.physics.laws.nut_losses import Seals
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.sweep import compute as sweep
 

@@ -377,6 +377,7 @@ def test_the_line_law_has_no_slip_across():
 # -- as text --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_same_input_gives_the_same_bytes_in_all_processes():
     program = (
         "import sys; from pathlib import Path; from ballscrew.cases.case_files import case_file;"

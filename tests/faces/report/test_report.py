@@ -39,8 +39,8 @@ from ballscrew.faces.report.heading import Heading
 from ballscrew.faces.report.html import html_bytes
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.report.pdf import pdf_bytes
-from ballscrew.physics.components.nut_losses import ConstantTorque
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.nut_losses import ConstantTorque
 from ballscrew.questions.axis.compute import SERIES as CHAIN
 from ballscrew.questions.axis.compute import chain_of
 from ballscrew.questions.band import compute as band
@@ -313,6 +313,7 @@ def test_a_table_of_estimates_that_is_none_is_refused(wrong):
         case_file.build(tables, folder=ROOT / "examples")
 
 
+@pytest.mark.slow
 def test_what_a_case_changes_is_marked_as_its_own():
     found = content_of("all that can be said")
     rows = [
@@ -373,6 +374,7 @@ def test_sources_are_those_that_were_used(content):
     assert links_of["Olaru2005"] == "https://doi.org/10.1007/1-4020-2933-0_20"
 
 
+@pytest.mark.slow
 def test_at_rest_and_without_load_it_says_so():
     for name, words in (
         ("at rest", "At rest nothing slips"),
@@ -393,6 +395,7 @@ def test_ratings_that_nobody_lists_are_called_computed(content):
         assert (words in paragraph.lower()) == said
 
 
+@pytest.mark.slow
 def test_torque_that_a_fit_found_besides_is_a_part_of_the_torque():
     fit = {
         "log": "rig_log.csv",
@@ -604,6 +607,7 @@ def test_the_page_is_for_everybody(page):
 _HOSTILE = '#import "x" <script>alert(1)</script> $x$ {{ 1 + 1 }} \\*_`@a &amp; ]'
 
 
+@pytest.mark.slow
 def test_texts_of_files_come_out_as_text(tmp_path):
     quoted = _HOSTILE.replace('"', '""')
     (tmp_path / "rows.csv").write_text(
@@ -631,6 +635,7 @@ def test_texts_of_files_come_out_as_text(tmp_path):
 SEEDS = [("pdf", 1), ("html", 2), *(pytest.param(*one, marks=pytest.mark.long) for one in (("pdf", 2), ("html", 1)))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "seed"), SEEDS)
 def test_equal_cases_give_equal_bytes_in_all_processes(kind, seed, tmp_path):
     to = tmp_path / f"report.{kind}"
@@ -650,6 +655,7 @@ def test_equal_cases_give_equal_bytes_in_all_processes(kind, seed, tmp_path):
     assert to.read_bytes() == (pdf_bytes(content) if kind == "pdf" else html_bytes(content))
 
 
+@pytest.mark.slow
 def test_reports_made_at_once_do_not_disturb_each_other():
     wanted = {name: html_bytes(content_of(name)) for name in ("feed_drive", "olaru2005")}
     with ThreadPoolExecutor(2) as pool:
@@ -751,6 +757,7 @@ def test_values_are_written_without_exponents_where_people_would(number, words):
     assert value(number, _TORQUE) == words
 
 
+@pytest.mark.slow
 def test_pictures_say_what_they_show(content):
     pictures = [block for section in content.sections for block in section.blocks if isinstance(block, Picture)]
     assert len(pictures) == 5
@@ -827,6 +834,7 @@ def test_one_verdict_where_a_cycle_is_given():
     assert "FAILS" not in html_bytes(content_of("vertical_axis")).decode()
 
 
+@pytest.mark.slow
 def test_numbers_of_a_cycle_have_their_bands():
     section = next(s for s in content_of("vertical_axis").sections if s.title.startswith("Over a cycle"))
     table = next(block for block in section.blocks if getattr(block, "title", "") == "Cycle")

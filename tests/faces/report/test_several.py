@@ -30,6 +30,7 @@ def table_of(content, title):
     return next(block for block in section.blocks if hasattr(block, "rows"))
 
 
+@pytest.mark.slow
 def test_each_column_is_what_the_design_has_by_itself(content):
     assert [section.title for section in content.sections][:3] == ["Answer", "Checks", "Side by side"]
     torque = next(row for row in table_of(content, "Side by side").rows if row[0] == "friction torque on the screw")
@@ -47,6 +48,7 @@ def test_each_column_is_what_the_design_has_by_itself(content):
     assert buckling[2] == "not judged: give installation"
 
 
+@pytest.mark.slow
 def test_its_pages_are_few_and_none_is_nearly_blank(content):
     reader = pypdf.PdfReader(io.BytesIO(pdf_bytes(content)))
     assert 3 <= len(reader.pages) <= content.pages == 8
@@ -57,6 +59,7 @@ def test_its_pages_are_few_and_none_is_nearly_blank(content):
     assert "designs A, B, C" in text
 
 
+@pytest.mark.slow
 def test_equal_designs_give_equal_reports(content):
     again = several.content([case_of(name) for name in NAMES], samples=SAMPLES)
     assert as_data(again) == as_data(content)

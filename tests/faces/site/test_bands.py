@@ -12,7 +12,7 @@ from ballscrew.faces.site import banding, kinds
 from support.bands_in_node import BandsPage, band_of_program, fan_of_program
 from support.judged_in_node import case_at
 
-pytestmark = pytest.mark.implausible
+pytestmark = [pytest.mark.slow, pytest.mark.implausible]
 
 STRUCTURES = (("reference", "row"), ("reference", "double"), ("reference", "double+elastic"), ("olaru2005", "row"))
 #: One whose oil is given by its viscosity, and one of a grade.

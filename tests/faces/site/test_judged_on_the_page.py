@@ -16,7 +16,7 @@ from ballscrew.questions.check.compute import checked
 from ballscrew.questions.run.compute import run
 from support.judged_in_node import JudgedPage, case_at
 
-pytestmark = pytest.mark.implausible
+pytestmark = [pytest.mark.slow, pytest.mark.implausible]
 
 ROW, SINGLE, DOUBLE = ("reference", "row"), ("reference", "single"), ("reference", "double")
 OVERSIZE, ELASTIC = ("reference", "oversize-balls"), ("olaru2005", "double+elastic")

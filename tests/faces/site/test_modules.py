@@ -15,7 +15,7 @@ from ballscrew.faces.site import kinds, modules
 from ballscrew.physics.sizing.catalogue import catalogue
 from support.modules_in_node import Modules, start_of
 
-pytestmark = pytest.mark.implausible
+pytestmark = [pytest.mark.slow, pytest.mark.implausible]
 
 #: Structures of the tests: rigid, elastic and four contacts, of both ends of the models.
 RIGID = (

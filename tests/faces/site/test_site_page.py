@@ -118,6 +118,7 @@ MOVE = """([path, share]) => {
 }"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", NUTS)
 def test_cases_made_at_random_are_those_of_the_program(visit, kind):
     """Any start with any oil and any sliders moved a little."""
@@ -153,6 +154,7 @@ def ends_of(tables, count):
     return found["screw_torque"].both
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fragment", ["", DOUBLE, "#start=paper&kind=double%2Belastic"])
 def test_the_band_is_that_of_the_program(visit, fragment):
     here = visit().open(fragment)
@@ -168,6 +170,7 @@ def test_the_band_is_that_of_the_program(visit, fragment):
     assert "inputs alone" in here.page.locator("#band").inner_text()  # that of the program is of inputs and laws
 
 
+@pytest.mark.slow
 def test_a_band_of_numbers_that_were_changed_is_dropped(visit):
     here = visit().open(DOUBLE)
     band_of(here)
@@ -354,6 +357,7 @@ def test_each_chart_has_its_numbers_and_words(visit):
         assert section.locator("tbody tr").count() > 10, section.get_attribute("id")
 
 
+@pytest.mark.slow
 def test_checks_are_said(visit):
     here = visit().open(DOUBLE)
     assert "4 of 8 judged, and these hold" in here.page.locator("#whole").inner_text()
@@ -383,6 +387,7 @@ def violations(here):
     return [(one["id"], one["impact"], [node["target"] for node in one["nodes"]][:3]) for one in found]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("width", "scheme"), [(1440, "light"), (360, "dark")])
 def test_axe_finds_nothing(visit, width, scheme):
     here = visit(width=width, scheme=scheme).open(DOUBLE)
@@ -417,6 +422,7 @@ def test_a_link_to_what_the_page_has_not_is_said(visit):
     assert here.state()["inputs"]["axial_load"] == 3000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("single", [False, True], ids=["folder", "one file"])
 def test_it_opens_from_files(visit, folder, tmp_path, single):
     if single:

@@ -44,6 +44,7 @@ def test_head_of_files(server, path):
     assert found.headers["content-security-policy"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("site", "status"), [("cross-site", 403), ("same-site", 403), ("same-origin", 200), ("none", 200)]
 )
@@ -121,6 +122,7 @@ def test_pages_are_served_from_here(server, page):
     assert len(seen) > 3
 
 
+@pytest.mark.slow
 def test_what_is_described_is_there(server):
     """The viewer shows this document, and each of its addresses is one that answers."""
     described = server.get("openapi.json").json()

@@ -5,6 +5,8 @@ import json
 import tomllib
 from pathlib import Path
 
+import pytest
+
 from ballscrew.cases.case_files import project
 
 ROOT = Path(__file__).parents[3]
@@ -63,6 +65,7 @@ def test_what_is_refused(server, paper):
         assert (found.status_code, words in found.text) == (422, True), found.text[:300]
 
 
+@pytest.mark.slow
 def test_only_tables_have_columns(server, paper):
     """A project in one line, as many programs write JSON, has many commas in it."""
     designs = [{"name": str(i), "case": paper} for i in range(80)]
@@ -125,6 +128,7 @@ def test_what_json_has_not_is_kept_as_text(server, paper):
     assert (too_deep.status_code, "shop.a.b.c.d.e: is nested too deeply" in too_deep.text) == (422, True)
 
 
+@pytest.mark.slow
 def test_a_selection_tells_the_cases_of_its_candidates(server):
     need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "preload": "2 %"}
     table = {"name": "own.csv", "text": (ROOT / "examples" / "own_screws.csv").read_text(encoding="utf-8")}

@@ -9,6 +9,8 @@ import pytest
 
 from .conftest import ROOT
 
+pytestmark = pytest.mark.slow
+
 NEED = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
 #: Seconds of processor of a request here, and seconds that pass meanwhile on a busy machine.
 LIMIT, PATIENCE = 2, 120

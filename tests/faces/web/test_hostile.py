@@ -21,6 +21,8 @@ from support.short_timeouts import READ_TIMEOUT
 
 from .conftest import ROOT
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(autouse=True)
 def unharmed(server, paper):

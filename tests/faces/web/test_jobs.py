@@ -18,6 +18,8 @@ from ballscrew.faces.web.job_process import Answer, Computed, Progress, Row
 from ballscrew.faces.web.jobs import Jobs
 from ballscrew.faces.web.problems import Refused
 
+pytestmark = pytest.mark.slow
+
 #: Longer than any job of these tests takes, also on a busy machine.
 LONG = 600
 #: A body that computes for minutes: it is cancelled or stopped by its limit.

@@ -33,6 +33,7 @@ def lines_of(server, body):
     return [json.loads(line) for line in found.text.splitlines()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["olaru2005.toml", "catalogue_screw.toml", "rig.toml"])
 @pytest.mark.parametrize("signs", [(1, 1), (-1, -1), (0, 1)])
 def test_each_line_is_what_its_address_answers(server, name, signs):

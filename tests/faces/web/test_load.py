@@ -15,6 +15,8 @@ from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.faces.web import memory
 from ballscrew.questions.shared.report_blocks import Report
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = Path(__file__).parents[3] / "benchmarks" / "serve.py"
 
 

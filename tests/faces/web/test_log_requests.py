@@ -16,6 +16,8 @@ from ballscrew.faces.web.server import application
 from faces.web.test_equal_to_commands import document, written
 from support.documents import assert_same
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[3] / "examples"
 
 

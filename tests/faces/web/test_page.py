@@ -42,6 +42,7 @@ def agree(visit, document):
     return results
 
 
+@pytest.mark.slow
 def test_by_keyboard_alone(visit, computed):
     here = visit().open()
     keyboard = here.page.keyboard
@@ -114,6 +115,7 @@ def test_shows_what_the_command_line_computes(visit, computed, case):
     assert here.numbers() != before
 
 
+@pytest.mark.slow
 def test_uncertain_input_and_its_band(visit, computed):
     here = visit().open()
     here.type("screw.screw_conformity", "0.54 ± 0.01").page.locator("#band").check()
@@ -137,6 +139,7 @@ def values(here):
     return here.page.evaluate(f"Object.fromEntries({fields}.map((one) => [one.id, one.value]))")
 
 
+@pytest.mark.slow
 def test_units_do_not_drift(visit):
     here = visit().open(f"#A={SMALL}&band=0")  # a band is asked for later, when the page rests
     here.type("operation.axial_load", "1234.5678901 N").page.keyboard.press("Tab")
@@ -162,6 +165,7 @@ def test_units_do_not_drift(visit):
     assert here.page.url == address
 
 
+@pytest.mark.slow
 def test_numbers_are_in_the_units_chosen(visit):
     """Sentences of the server are those of the command line."""
     here = visit().open(f"#A={SMALL}&B=paper&band=0")
@@ -180,6 +184,7 @@ def test_numbers_are_in_the_units_chosen(visit):
 # -- the address ------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_address_restores_everything(visit):
     here = visit().open()
     here.type("operation.axial_load", "3.21 kN").choose("model.friction", "load-sharing")
@@ -205,6 +210,7 @@ def test_the_address_restores_everything(visit):
     assert there.page.locator("#u-operation-screw_speed").input_value() == "rev/s"
 
 
+@pytest.mark.slow
 def test_back_and_forward(visit):
     here = visit().open()
     first = here.numbers()
@@ -224,6 +230,7 @@ def test_back_and_forward(visit):
     assert here.page.locator("#f-operation-axial_load").input_value() == "5000"
 
 
+@pytest.mark.slow
 def test_typing_does_not_flood_the_history(visit):
     here = visit().open()
     # counted by itself: a browser keeps 50 entries, of the pages before as well
@@ -295,6 +302,7 @@ def a_link_does_no_harm(here, words, plain):
 TEXTS = ["<script>window.hurt = 1</script>", "__proto__", "1e400 N", "9" * 3000, "\u202e5 N", "5 N; rm"]
 
 
+@pytest.mark.slow
 def test_nonsense_typed_into_a_field_is_refused_in_words(visit):
     here = visit()
     here.expected = ("status of 422", "status of 413")
@@ -333,6 +341,7 @@ def compared(here):
     )
 
 
+@pytest.mark.slow
 def test_three_and_four_designs(visit, computed):
     here = visit().open(f"#A=paper&B={SMALL}&C=hiwin-40-16k5&show=C&at=own&band=0")
     here.page.locator("#add").click()

@@ -8,6 +8,8 @@ import axe_playwright_python
 import pytest
 from pypdf import PdfReader
 
+pytestmark = pytest.mark.slow
+
 DOUBLE = "rexroth-16x5x3-4-double"
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
 SIZES = {"desktop": {"width": 1360, "height": 900}, "phone": {"width": 390, "height": 844}}

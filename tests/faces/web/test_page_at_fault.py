@@ -4,6 +4,8 @@ import statistics
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 DOUBLE = "rexroth-40x10x6-6-double"
 
 

@@ -1,8 +1,12 @@
 """The card of the axis: a sketch whose parts lead to their inputs, and what gives way over the stroke."""
 
+import pytest
+
 from .shown_sheets import drawn, shows
 from .test_page_access import violations
 from .test_page_duty import answered, case_of, edited
+
+pytestmark = pytest.mark.slow
 
 
 def part(here, name):

@@ -7,6 +7,8 @@ import pytest
 
 from .drawn_charts import DRAWN, POINT, chart
 
+pytestmark = pytest.mark.slow
+
 
 def at(line, place):
     """The value of a line at a place between its points."""

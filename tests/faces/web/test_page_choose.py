@@ -3,7 +3,11 @@
 import json
 import urllib.parse
 
+import pytest
+
 from .test_page_access import violations
+
+pytestmark = pytest.mark.slow
 
 NEED = {
     "axial_load": "3 kN", "feed": "15 m/min", "unsupported_length": "1 m", "ends": "fixed-supported",

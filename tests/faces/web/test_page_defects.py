@@ -14,6 +14,8 @@ from ballscrew.basis.units import to_digits
 from .conftest import BUSY, Visit, new_page
 from .drawn_charts import chart
 
+pytestmark = pytest.mark.slow
+
 DOUBLE = "rexroth-16x5x3-4-double"
 #: A preloaded nut of rigid bodies, which is computed quickly.
 RIGID = "#A=paper&A.nut.type=double&A.nut.preload=2+kN&band=0"

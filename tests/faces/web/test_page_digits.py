@@ -3,8 +3,11 @@
 import re
 
 import numpy as np
+import pytest
 
 from ballscrew.basis.units import to_digits
+
+pytestmark = pytest.mark.slow
 
 ENDS = """async (pairs) => {
   const { ends, digits } = await import("/page/units.js");

@@ -2,8 +2,12 @@
 
 import tomllib
 
+import pytest
+
 from .shown_sheets import shows
 from .test_page_access import violations
+
+pytestmark = pytest.mark.slow
 
 
 def case_of(here):

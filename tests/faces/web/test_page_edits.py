@@ -8,6 +8,8 @@ import pytest
 
 from .drawn_charts import AT_LOAD, DRAWN, POINT
 
+pytestmark = pytest.mark.slow
+
 
 def value(here, field):
     return here.page.locator(here.id(field)).input_value()

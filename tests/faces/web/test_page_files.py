@@ -15,6 +15,8 @@ from typer.testing import CliRunner
 from ballscrew.faces.cli.main import app
 from support.documents import assert_same
 
+pytestmark = pytest.mark.slow
+
 DOUBLE = "rexroth-16x5x3-4-double"
 STARTS = {
     "paper": "#A=paper&A.operation.axial_load=3+kN",

@@ -4,12 +4,15 @@ import json
 import time
 
 import psutil
+import pytest
 
 from ballscrew.faces.web.request_queue import out_of_time
 
 from .shown_sheets import shows
 from .test_page_duty import case_of
 from .test_page_logs import DOUBLE_NUT, given_logs
+
+pytestmark = pytest.mark.slow
 
 #: Choosing from the whole catalogue, which takes longer than any of these tests looks at it.
 #: All that is judged is asked for: the page starts at once.

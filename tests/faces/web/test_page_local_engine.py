@@ -16,7 +16,7 @@ from ballscrew.faces.web.starts import starts
 
 from .drawn_charts import DRAWN, POINT
 
-pytestmark = pytest.mark.compiles
+pytestmark = [pytest.mark.slow, pytest.mark.compiles]
 
 #: Both compute the same formulas, compiled for other machines: so far apart in rounding, of the largest number.
 CLOSE = 1e-12

@@ -1,10 +1,14 @@
 """The cards that take logs, and the hand-over: each walked through whole."""
 
+import pytest
+
 from ballscrew.faces.web.body_examples import examples
 
 from .shown_sheets import drawn, shows
 from .test_page_access import violations
 from .test_page_duty import answered, case_of, number
+
+pytestmark = pytest.mark.slow
 
 #: A page with the card of the service and a nut with preload.
 DOUBLE_NUT = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&view=measure.service"

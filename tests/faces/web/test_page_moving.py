@@ -1,8 +1,12 @@
 """The cards of balls in motion: asked by their buttons, with their charts and tables."""
 
+import pytest
+
 from .shown_sheets import drawn, shows
 from .test_page_access import violations
 from .test_page_duty import answered, case_of
+
+pytestmark = pytest.mark.slow
 
 
 def test_a_reversal_is_asked_for_and_refused(visit, server):

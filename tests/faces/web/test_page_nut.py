@@ -17,6 +17,8 @@ from ballscrew.questions.shared.chart_colours import GROWING
 from .test_page_access import violations
 from .test_page_duty import case_of
 
+pytestmark = pytest.mark.slow
+
 DOUBLE = "rexroth-16x5x3-4-double"
 #: Balls of the side view: place along the screw and across it in m, number, load in N.
 BALLS = """() => { const svg = document.querySelector("#nut-picture svg"), f = Number(svg.dataset.scale);

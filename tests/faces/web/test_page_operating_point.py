@@ -3,7 +3,11 @@
 import re
 import tomllib
 
+import pytest
+
 from .drawn_charts import AT_LOAD, POINT
+
+pytestmark = pytest.mark.slow
 
 
 def value(here, field):

@@ -6,6 +6,8 @@ import pytest
 
 from .test_page_duty import case_of
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[3] / "examples"
 #: A preloaded nut of elastic bodies, where its preload is asked for.
 ELASTIC = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.bodies.same_side=true&band=0&view=measure.service"

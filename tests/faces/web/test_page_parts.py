@@ -7,6 +7,8 @@ import pytest
 
 from .conftest import Visit, new_page
 
+pytestmark = pytest.mark.slow
+
 PAPER = "#A=paper&band=0"
 
 

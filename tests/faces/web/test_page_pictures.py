@@ -7,6 +7,8 @@ import pytest
 
 from .drawn_charts import CHART
 
+pytestmark = pytest.mark.slow
+
 #: Bars at the ends of the flows of power, by their names: their heights.
 BARS = """() => Object.fromEntries([...document.querySelectorAll("#power rect[data-flow]")].map(
   (one) => [one.dataset.flow, Number(one.getAttribute("height"))]))"""

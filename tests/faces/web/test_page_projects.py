@@ -3,8 +3,12 @@
 import json
 import tomllib
 
+import pytest
+
 from .conftest import Visit
 from .test_page_access import SIZES, violations
+
+pytestmark = pytest.mark.slow
 
 MINE = """# of the shop
 [screw]

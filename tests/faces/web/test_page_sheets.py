@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 TORQUE, LENGTH, PLAIN = ({"unit": unit, "shown_in": shown} for unit, shown in (("N m", "N m"), ("m", "mm"), ("1", "1")))
 
 

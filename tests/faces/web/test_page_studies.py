@@ -3,10 +3,14 @@
 import json
 import urllib.parse
 
+import pytest
+
 from .conftest import ROOT
 from .shown_sheets import drawn, shows
 from .test_page_access import violations
 from .test_page_duty import answered, case_of
+
+pytestmark = pytest.mark.slow
 
 NEED = {
     "axial_load": "2 kN", "feed": "15 m/min", "unsupported_length": "1 m", "ends": "fixed-supported",

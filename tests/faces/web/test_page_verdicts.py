@@ -4,7 +4,11 @@ import json
 import tomllib
 import urllib.parse
 
+import pytest
+
 from .conftest import ROOT
+
+pytestmark = pytest.mark.slow
 
 #: A screw that its operating point would wear out, and its cycle does not.
 MOVING = "#A=vertical-axis&band=0&view=duty"

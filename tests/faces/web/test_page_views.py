@@ -4,6 +4,8 @@ import pytest
 
 from .conftest import Visit, new_page
 
+pytestmark = pytest.mark.slow
+
 DOUBLE = "rexroth-40x10x6-6-double"
 VIEW = "document.body.dataset.seenView"
 #: The views, in the order of their tabs.

@@ -22,6 +22,8 @@ from ballscrew.faces.web.server import (
 from ballscrew.questions.validate import document as validation_documents
 from support.validation_sets import every_set
 
+pytestmark = pytest.mark.slow
+
 #: A job is a process: what it may be asked is in ``test_jobs.py``.
 JOBS = "/api/v1/jobs/"
 #: Seconds for the slowest request, also on a busy machine.

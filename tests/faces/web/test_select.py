@@ -5,12 +5,15 @@ import concurrent.futures
 import json
 
 import httpx
+import pytest
 
+from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.output.json_text import plain
 from ballscrew.faces.web import server as servers
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.questions.select.answer import document
 from ballscrew.questions.select.compute import select
+from ballscrew.questions.select.sheet import sheet
 
 NEED = {
     "force": "2 kN",
@@ -27,6 +30,7 @@ def test_the_answer_is_the_document_of_the_command(server):
     assert found.status_code == 200, found.text[:500]
     selection = select(NEED, words="rexroth 32x10")
     answer = found.json()
+    assert answer.pop("sheet") == json.loads(json.dumps(plain(sheets.document(sheet(selection, selection.ranked)))))
     assert answer == json.loads(json.dumps(plain(document(selection))))
 
 
@@ -45,6 +49,7 @@ def test_candidates_come_one_by_one(server):
     }
 
 
+@pytest.mark.slow
 def test_what_a_need_leaves_open_is_said_before_it_starts(server):
     found = server.post("select/plan", {"need": NEED, "words": "rexroth 32x10"})
     assert found.status_code == 200, found.text[:500]
@@ -79,6 +84,7 @@ def _not_judged(candidate):
     return [check.name for check in candidate.checks if check.holds is None]
 
 
+@pytest.mark.slow
 def test_what_is_refused(server):
     for need, words in (
         ({**NEED, "lubricant": {"oil_file": "/etc/passwd"}}, "lubricant.oil_file"),

@@ -78,6 +78,7 @@ def status_of(connection):
     return int(connection.recv(65_536).split()[1])
 
 
+@pytest.mark.slow
 def test_it_ends_at_once_while_it_computes(start, elastic):
     """Also with a body that does not come to its end, and with a connection that says nothing."""
     server = start()
@@ -132,6 +133,7 @@ def test_warnings_do_not_reach_the_terminal(start):
     assert server.end() == (0, "")
 
 
+@pytest.mark.slow
 def test_a_second_signal_ends_it_too(start):
     server = start()
     for _ in range(2):

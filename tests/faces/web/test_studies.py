@@ -17,6 +17,8 @@ from .conftest import ROOT
 from .test_equal_to_commands import document, written
 from .test_hostile import refused
 
+pytestmark = pytest.mark.slow
+
 NEED = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
 MOVING = {name: value for name, value in NEED.items() if name != "force"}
 #: A search of a second.

@@ -44,6 +44,7 @@ def test_time_is_limited():
         child_process.call(time.sleep, 600, seconds=0.2)
 
 
+@pytest.mark.slow
 @limits
 @pytest.mark.parametrize(
     ("cells", "reason"),

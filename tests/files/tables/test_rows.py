@@ -159,6 +159,7 @@ def test_headings(written, name, unit):
     assert (heading and heading.column.name, heading.unit if heading else "") == (name, unit)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("columns", [COLUMNS, *map(columns_of, SETS.values())])
 def test_no_name_means_two_columns(columns):
     """Each name means its own column, alone and beside its other names and hints; no hint means one alone."""

@@ -117,6 +117,7 @@ def test_pieces_make_no_difference(read):
         assert log.cleaned().line.tolist() == thinned[0].cleaned().line.tolist()
 
 
+@pytest.mark.slow
 def test_memory_does_not_grow_with_the_rows(read, tmp_path):
     peaks = []
     for rows in (60_000, 240_000):
@@ -198,6 +199,7 @@ COLUMNS_OF_MATLAB = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("struct", [False, True])
 @pytest.mark.parametrize("shape", [(-1,), (-1, 1), (1, -1)])
 def test_a_file_of_matlab(tmp_path, struct, shape):
@@ -244,6 +246,7 @@ def test_a_damaged_file_of_matlab_does_not_end_the_program(tmp_path):
     assert line.endswith("save the columns as arrays of one length, or one struct of them, with save(..., '-v7')")
 
 
+@pytest.mark.slow
 def test_faults_of_files_of_matlab(tmp_path, monkeypatch):
     path = tmp_path / "log.mat"
     scipy.io.savemat(path, {**COLUMNS_OF_MATLAB, "speed_rpm": np.arange(4.0)})

@@ -20,10 +20,10 @@ from ballscrew.axis.supports.makers_bearing import KnownBearing, PalmgrenBearing
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.basis.quantities import fields_of
 from ballscrew.engine.uncertainty.bands import band_along
-from ballscrew.physics.components import nut_losses
 from ballscrew.physics.components.nut import Scatter
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.laws import nut_losses
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.checks import checks
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.physics.components.frame import bearing_frame, helix_frame
-from ballscrew.physics.components.nut_losses import seal_table
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import kinematics, nut_losses
+from ballscrew.physics.laws.frame import bearing_frame, helix_frame
+from ballscrew.physics.laws.nut_losses import seal_table
 
 from .numbers import SCREWS
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.physics.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG
 from ballscrew.physics.equations import geometry, preload, transmission
+from ballscrew.physics.laws.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG
 
 DATA = Path(__file__).parents[2] / "data"
 RELATIVE = 1e-13

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.physics.components.frame import bearing_frame, helix_frame
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import kinematics, nut_losses, ripple
+from ballscrew.physics.laws.frame import bearing_frame, helix_frame
 
 from .numbers import SCREWS
 

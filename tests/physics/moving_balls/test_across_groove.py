@@ -8,9 +8,9 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import SCREW
-from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.equations import across_groove, deflection
 from ballscrew.physics.friction.across_groove import friction_across, preload_off_line
+from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.moving_balls.across_groove import off_line_balls
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
 from ballscrew.physics.moving_balls.ripple import torque_ripple
@@ -58,6 +58,7 @@ def bristles_in_motion(screw, found):
     return brush, step
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCREWS)
 @pytest.mark.parametrize("elastic", [False, True], ids=["rigid", "elastic"])
 def test_two_derivations_of_the_angles_and_of_the_load(name, elastic):
@@ -151,6 +152,7 @@ def test_rest_is_the_limit_of_a_vanishing_speed_and_a_first_start_its_own_state(
     assert 1 < float(from_rest.torque) / torque(0.0) < 0.15 / 0.12  # the balls also rub each other
 
 
+@pytest.mark.slow
 def test_a_set_preload_is_swept_as_it_is_evaluated():
     """Recorded between rigid bodies, by the model itself between elastic ones."""
     screw, _ = SCREWS["20x5"]
@@ -230,6 +232,7 @@ def test_the_chain_and_the_ripple_are_of_the_nut_in_motion():
     np.testing.assert_allclose(*torques, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_dataset_says_that_the_preload_was_set_at_rest():
     screw, _ = SCREWS["20x5"]
     of = {

@@ -8,8 +8,8 @@ import pint
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.laws.ball_chain import ChainBallForce
 from ballscrew.physics.moving_balls.chain import Circuit, chain_run
 from ballscrew.physics.moving_balls.loaded_zone import Groove, loaded_zone
 
@@ -32,6 +32,7 @@ def moving(gap, deviation, part=None, seed=1, **changes):
     return bs.moving_chain(MODEL, part or screw(), OIL, gap=gap, groove_deviation=deviation, seed=seed, **given)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [0.1, 0.4, 1.0])
 def test_balls_of_a_perfect_nut_do_not_press(gap):
     # share below 1e-4: 2e-5 is what the balls in the relieved end pass on to the return
@@ -44,6 +45,7 @@ def test_balls_of_a_perfect_nut_do_not_press(gap):
     assert push * (1 - 2 * waiting) < found.exit_push <= 1.001 * push
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("amplitude", [1e-6, 2e-6])
 def test_without_a_gap_the_share_is_the_integral_of_the_creep(amplitude):
     # one harmonic a turn, along the axis: c epsilon_1 z_1 / 2 pi within 15 %, as the ends of the zone are free, and a
@@ -71,6 +73,7 @@ def share_without_gap(zone, amplitude):
     return ball_chain.chain_force_share(c, epsilon, z_1, 1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("gap", "deviation"), [(0.003, 1.5e-6), (0.1, 1.5e-6), (0.5, 2e-6), (0.3, 0.0)])
 def test_what_the_races_put_in_is_taken_by_creep_and_return(gap, deviation):
     # 1e-4 is asked for; steps that end where a gap closes leave rounding
@@ -90,6 +93,7 @@ def test_the_return_brakes_with_the_push_of_the_last_ball():
     assert torque == pytest.approx(ball_chain.return_torque(found.exit_push, zone.path_radius, gamma), rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("gap", "deviation"), [(0.003, 1.5e-6), (0.03, 1.5e-6), (1.0, 0.3e-6)])
 def test_order_gaps_and_number_of_the_balls_are_kept(gap, deviation):
     found = moving(gap, deviation)
@@ -103,6 +107,7 @@ def test_order_gaps_and_number_of_the_balls_are_kept(gap, deviation):
     assert np.all(np.argsort(places, axis=1) == (following[:, None] + np.arange(count)) % count)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("gap", "deviation"), [(0.003, 1.5e-6), (0.5, 1.5e-6)])
 def test_steps_and_length_do_not_matter(gap, deviation):
     # below 5 %: half the step 0.05 % and 0.2 %, twice the time that counts 0.3 % and 0.7 %
@@ -111,6 +116,7 @@ def test_steps_and_length_do_not_matter(gap, deviation):
     assert long.share == pytest.approx(usual.share, rel=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 @pytest.mark.parametrize("gap", [0.003, 0.3])
 def test_a_compiled_run_is_the_run(gap):
@@ -123,6 +129,7 @@ def test_a_compiled_run_is_the_run(gap):
         assert np.array_equal(getattr(plain, name), getattr(compiled, name)), name
 
 
+@pytest.mark.slow
 def test_a_mirror_changes_nothing():
     # load and speed reversed, in grooves that are seen in a mirror: the same run
     part, given = screw(2.0), {"groove_deviation": 1.5e-6, "seed": 3}
@@ -142,6 +149,7 @@ def test_a_mirror_changes_nothing():
     assert abs(unlike.share / runs[0].share - 1) > 1e-2  # another run: what is alike above is so by the mirror
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [0.003, 0.03])
 def test_the_law_is_the_mean_of_the_runs(gap):
     # runs scatter by two either way; their mean over four seeds is within that of the closed form
@@ -153,6 +161,7 @@ def test_the_law_is_the_mean_of_the_runs(gap):
     assert 0.5 < np.mean(shares) / of_law < 2
 
 
+@pytest.mark.slow
 def test_the_fill_decides():
     # the share falls with the gap: 0.010, 2e-4 and 2e-5 at 0.003, 0.03 and 0.3 balls, with 1.5 um
     shares = [np.mean([moving(gap, 1.5e-6, seed=seed).share for seed in (1, 2)]) for gap in (0.003, 0.03, 0.3)]
@@ -161,6 +170,7 @@ def test_the_fill_decides():
     assert shares[2] < 1e-4
 
 
+@pytest.mark.slow
 def test_a_quarter_of_the_creep_is_a_quarter_of_the_share():
     # who touches whom is a matter of the speeds: 0.0077 and 0.0019 in a prototype
     part = screw(2.0)
@@ -174,6 +184,7 @@ def test_a_quarter_of_the_creep_is_a_quarter_of_the_share():
     assert quarter == pytest.approx(whole / 4, rel=0.02)
 
 
+@pytest.mark.slow
 def test_balls_on_four_contacts_can_be_run():
     nut = bs.OversizeBallNut(preload=0.03 * ROW.dynamic_load_rating)
     part = ROW.screw(nut=nut)
@@ -182,6 +193,7 @@ def test_balls_on_four_contacts_can_be_run():
     assert 0 < found.share < 0.5 * other.share
 
 
+@pytest.mark.slow
 def test_a_constant_load_is_carried_at_each_moment():
     row = dataclasses.replace(screw(2.0), nut=bs.SingleNut())
     load = 900.0

@@ -95,6 +95,7 @@ def row_of_balls(zone, pitch, balls=30):
     return dataclasses.replace(run, angle=angle, places=places, loads=loads, forces=np.zeros_like(loads))
 
 
+@pytest.mark.slow
 def test_balls_at_equal_distances_make_the_harmonics_of_their_number():
     """Perfect grooves and sharp ends: each loaded ball has one torque, and their number goes up and down."""
     zone = zone_of(relief=1e-9)
@@ -109,6 +110,7 @@ def test_balls_at_equal_distances_make_the_harmonics_of_their_number():
     np.testing.assert_allclose(found, expected, rtol=0.01)
 
 
+@pytest.mark.slow
 def test_a_spall_takes_its_part_of_the_torque_once_a_ball_pass():
     """Each ball loses what its approach loses, over the width: a row of pulses."""
     zone, spall = zone_of(relief=1.0), Spall(2e-3, 1e-6)
@@ -152,6 +154,7 @@ def test_parts_sum_and_a_perfect_nut_has_the_drag_of_the_model():
     assert found.amplitude_of("screw") < 0.01 * ripple().amplitude_of("screw")
 
 
+@pytest.mark.slow
 def test_the_greatest_order_of_a_perfect_nut_is_the_ball_pass():
     found = ripple(groove_deviation=0.0, relief=0.1, turns=20.0)
     orders, amplitudes = found.spectrum
@@ -173,6 +176,7 @@ def test_names_of_a_circuit_are_those_of_its_kinematics():
     assert (orders["screw"], orders["ball pass 2"]) == (1.0, 2 * orders["ball pass"])
 
 
+@pytest.mark.slow
 def test_half_the_step_and_twice_the_length_are_the_same_ripple():
     usual = ripple()
     for changed in (ripple(step=0.05), ripple(turns=24.0)):
@@ -202,6 +206,7 @@ def test_a_mirror_changes_nothing():
     assert np.ptp(torques[0]) > 0.01 * np.mean(torques[0])
 
 
+@pytest.mark.slow
 def test_a_seed_is_a_nut():
     assert np.array_equal(ripple().torque, ripple().torque)
     assert not np.allclose(ripple().torque, ripple(seed=2).torque)
@@ -210,12 +215,14 @@ def test_a_seed_is_a_nut():
 # -- defects --------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_no_defect_is_a_defect_of_no_size():
     usual = ripple()
     for nothing in (Spall(2e-3, 0.0), PreloadLeft(1.0), NutGroove(1.0)):
         np.testing.assert_allclose(ripple(defect=nothing).torque, usual.torque, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_missing_ball_takes_its_friction_along():
     """Of the balls of one half, on the mean one in thirty is not there."""
     usual, missing = ripple(groove_deviation=0.0), ripple(groove_deviation=0.0, defect=MissingBall())
@@ -223,6 +230,7 @@ def test_a_missing_ball_takes_its_friction_along():
     assert lost == pytest.approx(1 / 20 / 2, rel=0.25)  # the room is between the loaded balls
 
 
+@pytest.mark.slow
 def test_a_full_circuit_and_a_lost_preload_make_ripple_and_a_spall_does_not():
     usual = ripple()
     relative = usual.peak_to_peak / usual.mean
@@ -236,6 +244,7 @@ def test_a_full_circuit_and_a_lost_preload_make_ripple_and_a_spall_does_not():
     assert ripple(defect=NutGroove(3.0)).share > usual.share
 
 
+@pytest.mark.slow
 def test_braced_halves_move_and_others_keep_their_load():
     assert 1e-9 < ripple().displacement < 2e-6
     single = dataclasses.replace(SCREW, nut=bs.SingleNut(angle_under_load=True))

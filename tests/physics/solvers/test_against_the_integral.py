@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.frame import bearing_frame
-from ballscrew.physics.components.laws import ProportionalBallForce
-from ballscrew.physics.components.mixed_friction import ZhouHoeprich
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce
+from ballscrew.physics.laws.frame import bearing_frame
+from ballscrew.physics.laws.friction import ZhouHoeprich
 from oracles.contact_integral import contact_integral
 from oracles.tractions import Coulomb
 
@@ -36,6 +36,7 @@ def reference(table):
     return next(row for row in table["rows"] if row["model"] == "reference")
 
 
+@pytest.mark.slow
 def test_slip_alone(tables):
     row = reference(tables[0])
     assert row["n"] >= 300

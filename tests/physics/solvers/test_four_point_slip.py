@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.conditions import Motion
-from ballscrew.physics.components.frame import helix_frame
-from ballscrew.physics.components.laws import ProportionalBallForce
 from ballscrew.physics.friction.balls import ball_contacts
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce
+from ballscrew.physics.laws.conditions import Motion
+from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers.four_point_slip import PARTS, FlankPair, FourPointBall, four_point_slip
 from oracles.contact_integral import contact_integral
 from oracles.free_ball import BallResistances
@@ -160,6 +160,7 @@ def integrals(ratio, *, resistances=lambda part, load: NONE):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.implausible
 @pytest.mark.parametrize("ratio", [1.0, 0.5, 0.1, 0.03, 0.01, 1e-3])
 def test_random_screws_with_loads_that_differ(ratio):
@@ -185,6 +186,7 @@ def test_random_screws_that_are_resisted():
         assert np.max(error) < 0.02, name
 
 
+@pytest.mark.slow
 @pytest.mark.implausible
 @pytest.mark.parametrize("ratio", [1.0, 0.3, 0.03])
 def test_the_ball_turns_as_the_integral_has_it(ratio):

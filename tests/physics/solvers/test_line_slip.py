@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.frame import bearing_frame
 from ballscrew.physics.equations import slip
+from ballscrew.physics.laws.frame import bearing_frame
 from ballscrew.physics.solvers.line_slip import creep_of_lines, line_slip, pure_rolling_lines
 
 REFERENCE = bs.FrictionModel.reference()

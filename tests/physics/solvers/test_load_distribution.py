@@ -9,9 +9,9 @@ from scipy.optimize import root
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.equations import geometry, hertz, preload
+from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers import ball_springs, load_distribution
 from ballscrew.physics.solvers.load_distribution import ball_loads, preload_of
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.balance import Resistances
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import equilibrium, friction
+from ballscrew.physics.laws.balance import Resistances
 from ballscrew.physics.solvers import pure_rolling
 from ballscrew.physics.solvers.slip import BallProblem
 
@@ -165,6 +165,7 @@ def test_traction_is_what_equilibrium_asks_for(anywhere):
         assert np.all((side.pure_rolling_offset >= 0) & (side.pure_rolling_offset <= 1))
 
 
+@pytest.mark.slow
 def test_agrees_with_bisection():
     r = box(5000, seed=7)
     (screw_moment, nut_moment), bound = moments_by_bisection(r)

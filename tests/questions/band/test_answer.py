@@ -39,6 +39,7 @@ def test_a_band_is_valid_by_its_schema(answer):
     assert any(answer["band"]["laws"].values())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preload", ["4326 N", "40 N"])
 def test_without_load_each_rule_is_within_the_band_or_not(preload):
     """Rules have neither seals nor other losses, which the band has."""

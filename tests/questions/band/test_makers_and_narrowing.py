@@ -51,6 +51,7 @@ def constant_friction(conditions):
     return 0.1 + 0.0 * conditions.film_parameter
 
 
+@pytest.mark.slow
 def test_a_friction_law_of_ones_own_has_a_band_without_makers():
     found = case()
     own = dataclasses.replace(found, model=dataclasses.replace(found.model, friction=constant_friction))
@@ -73,6 +74,7 @@ def test_what_is_left_without_a_cause_of_known_share():
     assert np.log(unmoved) == pytest.approx(np.array([-1.96, 1.96]) * np.sqrt(10), rel=0.05)
 
 
+@pytest.mark.slow
 def test_the_cause_named_is_the_one_that_varies():
     """Of two inputs, one a hundred times as uncertain; and nothing is named of a few samples."""
     told = {"ball_force": {"law": "proportional", "share_of_load": 0.0076}}  # so that no maker is drawn
@@ -85,6 +87,7 @@ def test_the_cause_named_is_the_one_that_varies():
     assert few.band.narrowing is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("celsius", [-10, 0, 40])
 def test_a_band_in_the_cold_holds_both_tracks(celsius):
     """Where the model is outside its validity the other track is, too: it is drawn all the same."""

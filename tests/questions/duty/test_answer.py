@@ -6,9 +6,9 @@ import pytest
 
 from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.duty import compute
-from ballscrew.questions.duty.answer import DutyResults, document
-from ballscrew.questions.duty.compute import IF_ANY, NUMBERS
+from ballscrew.questions.duty import compute, parts
+from ballscrew.questions.duty.answer import document
+from ballscrew.questions.duty.compute import IF_ANY, NUMBERS, DutyReport
 from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
@@ -29,7 +29,7 @@ def report():
 
 def test_every_number_is_on_every_face(report):
     """A number is one property: nothing else has to name it."""
-    answer, schema = document(report), declared.schema(DutyResults).model_json_schema()["properties"]
+    answer, schema = document(report), declared.schema(DutyReport).model_json_schema()["properties"]
     (cycle,) = (block for block in sheet(report).of_kind(Table) if block.name == "cycle")
     rows = {row[0]: row[1].value for row in cycle.rows}
     for name, quantity in NUMBERS.items():
@@ -47,9 +47,9 @@ def test_a_sheet_leaves_out_what_there_is_none_of(report):
     assert none == {"energy_stored"}
     meanings = {name: quantity.info.meaning for name, quantity in NUMBERS.items()}
     assert tables["cycle"] == [meaning for name, meaning in meanings.items() if name not in none]
-    (parts,) = (rows for rows in tables.values() if "gravity" in rows)
-    assert {"gravity", "process", "guide seals", "sum"} <= set(parts)
-    assert not {"guides", "transmission"} & set(parts)
+    (causes,) = (rows for rows in tables.values() if "gravity" in rows)
+    assert {"gravity", "process", "guide seals", "sum"} <= set(causes)
+    assert not {"guides", "transmission"} & set(causes)
     phases = report.phases
     assert tables["phases"] == [phase.name for phase in phases]
     assert sum(phase.duration for phase in phases) == pytest.approx(report.numbers["cycle_time"])
@@ -68,11 +68,11 @@ CASES = {
 @pytest.mark.parametrize("settings", CASES.values(), ids=CASES)
 def test_answers_are_valid_by_their_schema(example, settings):
     found = document(report_of(*settings, example=example))
-    declared.response(DutyResults, "Duty", judged=True).model_validate({**found, "sheet": {}})
+    declared.response(DutyReport, "Duty", judged=True).model_validate({**found, "sheet": {}})
 
 
 def test_every_part_is_described():
-    assert list(undescribed(DutyResults)) == []
+    assert list(undescribed(DutyReport)) == []
 
 
 def test_every_number_has_a_unit(report):
@@ -84,12 +84,12 @@ def test_every_number_has_a_unit(report):
 def test_numbers_of_a_full_bath_are_those_of_the_flooded_cycle():
     report = report_of("lubricant.temperature=-5 degC")
     flooded = report.duty.flooded
-    assert report.full_bath["energy_lost"] == pytest.approx(flooded.energy_lost, rel=1e-12)
-    assert report.full_bath["torque_peak"] == pytest.approx(flooded.torque_peak, rel=1e-12)
-    assert report.full_bath["energy_lost"] > 2 * report.numbers["energy_lost"]
+    assert report.full_bath.energy_lost == pytest.approx(flooded.energy_lost, rel=1e-12)
+    assert report.full_bath.torque_peak == pytest.approx(flooded.torque_peak, rel=1e-12)
+    assert report.full_bath.energy_lost > 2 * report.numbers["energy_lost"]
 
 
-@pytest.mark.parametrize(("kind", "unit"), [(compute.PositionSmoothing, "m"), (compute.SpeedSmoothing, "m/s")])
+@pytest.mark.parametrize(("kind", "unit"), [(parts.PositionSmoothing, "m"), (parts.SpeedSmoothing, "m/s")])
 def test_the_noise_of_a_recorded_motion_has_the_unit_of_what_was_recorded(kind, unit):
     found = kind(100, 3, 1e-6, 0.1, 2.0)
     assert declared.units(found) == {"noise": unit, "acceleration_noise": "m/s^2", "torque_rms_unsmoothed": "N m"}

@@ -44,11 +44,11 @@ def test_the_largest_torque_by_its_causes(report):
     """Slowing down upwards while the process pulls: the torque is backwards, and parts have the sign of their sum."""
     load = 100 * (G - 4) - 2500
     parts = {
-        "acceleration of the mass": 100 * 4 * ARM,
+        "acceleration_of_the_mass": 100 * 4 * ARM,
         "gravity": -100 * G * ARM,
         "process": 2500 * ARM,
         "efficiency": -abs(load) * ARM * (1 / 0.8 - 1),
-        "acceleration of what turns": 2e-3 * 4 / ARM,
+        "acceleration_of_what_turns": 2e-3 * 4 / ARM,
     }
     found = {name: part for name, part in report.torque_peak_by.items() if part}
     assert found == pytest.approx(parts, rel=1e-9)

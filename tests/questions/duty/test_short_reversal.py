@@ -61,6 +61,7 @@ def test_strokes_are_those_of_the_motion(example):
     assert ways[0].screw_speed == pytest.approx(-ways[1].screw_speed, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_short_stroke_is_told_with_its_share_of_the_work(example):
     found = report(example, 5e-5)
     short = found.short_reversal
@@ -73,6 +74,7 @@ def test_a_short_stroke_is_told_with_its_share_of_the_work(example):
     assert shorter.work_share < short.work_share
 
 
+@pytest.mark.slow
 def test_a_long_stroke_and_a_model_without_the_curve_say_nothing(example):
     assert said(report(example, 0.6)) == []
     assert said(report(example, 2e-3)) == []  # computed, and back within it

@@ -39,6 +39,7 @@ def figure(plot, sources):
     return drawn
 
 
+@pytest.mark.slow
 def test_axes_name_their_units(figure):
     shown = [panel for panel in figure.axes if panel.axison]
     assert shown
@@ -154,6 +155,7 @@ def test_nobodys_settings_matter(sources, tmp_path):
         assert (tmp_path / f"plain.{kind}").read_bytes() == (tmp_path / f"loud.{kind}").read_bytes()
 
 
+@pytest.mark.slow
 def test_no_pyplot():
     code = "import sys; from ballscrew.questions.reproduce import ball_figure, figure; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()

@@ -165,6 +165,7 @@ def test_a_shaft_that_may_not_buckle_has_the_diameter_of_euler():
     assert best.objectives["inertia"] == pytest.approx(math.pi * 7850 * (d_r + offset) ** 4 * 3 / 32, rel=5e-3)
 
 
+@pytest.mark.slow
 @needs_pymoo
 def test_the_front_beats_random_search_and_its_members_are_public(ballscrew, tmp_path):
     from pymoo.indicators.hv import HV

@@ -13,7 +13,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.moving_balls.friction_states import work_share
 from ballscrew.questions.reversal import compute
-from ballscrew.questions.reversal.answer import ReversalResults, document
+from ballscrew.questions.reversal.compute import ReversalResults, document
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.reversal.sheet import sheet
 from ballscrew.questions.shared import declared
@@ -37,7 +37,7 @@ def by_share(places):
 
 def test_places_of_each_mechanism(report):
     """Straight lines: a share s of the swing is back at s of the angle; balls that press later begin with a half."""
-    found = {name: by_share(places) for name, places in report.places_by_mechanism.items()}
+    found = {name: by_share(places) for name, places in report.swing_by_mechanism.items()}
     for share in compute.SHARES:
         for name, within in (("spin_and_curvature", 0.04), ("helix", 10.0)):
             place = found[name][share]
@@ -50,7 +50,7 @@ def test_places_of_each_mechanism(report):
 
 def test_places_of_all_friction(report):
     """At 90 %, 0.054 N m of 0.54 are missing: of what the helix and the closing balls have at each angle."""
-    place = by_share(report.places)[0.9]
+    place = by_share(report.swing)[0.9]
     angle = math.degrees(place.screw_angle)
     missing = 2 * STEADY["helix"] * max(1 - angle / 10, 0) + STEADY["ball_to_ball"] * (1 - angle / 30)
     assert missing == pytest.approx(0.1 * 2 * sum(STEADY.values()), rel=1e-4)
@@ -59,7 +59,7 @@ def test_places_of_all_friction(report):
 def test_from_rest():
     """From zero, and in half the angle."""
     rested = compute.of(CASE, closed_form(from_rest=True), ReversalOptions(from_rest=True))
-    place = by_share(rested.places_by_mechanism["helix"])[0.9]
+    place = by_share(rested.swing_by_mechanism["helix"])[0.9]
     assert math.degrees(place.screw_angle) == pytest.approx(0.9 * 5, rel=1e-3)
     assert sheet(rested).title.startswith("Friction from rest")
     assert rested.verdicts[0].text.startswith("from rest 90%")
@@ -67,7 +67,7 @@ def test_from_rest():
 
 def test_a_travel_that_is_too_short():
     short = compute.of(CASE, closed_form(travel=1e-4), ReversalOptions())
-    assert math.isnan(by_share(short.places)[0.98].screw_angle)
+    assert math.isnan(by_share(short.swing)[0.98].screw_angle)
     assert short.verdicts[0].text == "after a reversal less than 90% of the friction is back within 100 µm"
     assert "–" in terminal.text(sheet(short))
     found = document(short)
@@ -76,23 +76,23 @@ def test_a_travel_that_is_too_short():
 
 def test_elements_are_those_that_are_there(report):
     """Two hold it not quite, three hold it, so that there is no fit of four."""
-    assert [len(fit.elements) for fit in report.elements] == [2, 3]
-    assert report.elements[1].error.largest < 1e-4 < report.elements[0].error.largest
+    assert [len(fit.elements) for fit in report.slip_elements] == [2, 3]
+    assert report.slip_elements[1].error.largest < 1e-4 < report.slip_elements[0].error.largest
 
 
 def test_a_curve_that_one_element_holds():
     """Of rolling and of contacts that wind up over straight lines, and a travel too short for tracking."""
     steady = {"rolling": 0.05, "spin_and_curvature": 0.06}
     found = compute.of(CASE, closed_form(steady=steady, travel=5e-5), ReversalOptions())
-    assert [len(fit.elements) for fit in found.elements] == [1]
+    assert [len(fit.elements) for fit in found.slip_elements] == [1]
     assert found.verdicts[-1].text == "one Maxwell-slip element is off by up to 0%"
     assert "reversal.one_stiffness" not in [one.id for one in found.verdicts]
 
 
 def test_both_stiffnesses_are_told(report):
     said = {one.id: one for one in report.verdicts}["reversal.one_stiffness"]
-    assert said.value == report.tracking.error.largest > 0.3
-    assert report.first.model.presliding_stiffness > 20 * report.tracking.model.presliding_stiffness
+    assert said.value == report.dahl.error.largest > 0.3
+    assert report.dahl_first.model.presliding_stiffness > 20 * report.dahl.model.presliding_stiffness
 
 
 def test_the_hypothesis_is_said(report):
@@ -106,7 +106,7 @@ def test_the_hypothesis_is_said(report):
 
 def test_a_part_that_is_not_there():
     without = compute.of(CASE, closed_form(steady={**STEADY, "helix": 0.0, "losses": 1e-17}), ReversalOptions())
-    assert without.places_by_mechanism.keys() == {"rolling", "spin_and_curvature", "ball_to_ball"}
+    assert without.swing_by_mechanism.keys() == {"rolling", "spin_and_curvature", "ball_to_ball"}
 
 
 def test_bristles_that_are_far_off_are_said(report):
@@ -124,7 +124,7 @@ def test_a_part_goes_to_where_its_curve_ends():
     moved["helix"] = 1.1 * found.contributions["helix"]
     moved["spin_and_curvature"] = found.screw_torque - sum(v for n, v in moved.items() if n != "spin_and_curvature")
     other = compute.of(CASE, dataclasses.replace(found, contributions=moved), ReversalOptions())
-    place = by_share(other.places_by_mechanism["helix"])[0.9]
+    place = by_share(other.swing_by_mechanism["helix"])[0.9]
     assert math.degrees(place.screw_angle) == pytest.approx(9, rel=1e-3)
 
 
@@ -169,6 +169,7 @@ def test_the_charts(report):
     assert models["Dahl, first 0.02°"].y[-1] == pytest.approx(sum(STEADY.values()), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", ["100 rpm", "-100 rpm"])
 def test_the_viscous_slope_is_that_of_a_run(speed):
     """Torques by rolling at 90 and 110 rpm, of runs, either way; the rest of what follows at once is dry."""
@@ -192,19 +193,20 @@ def test_a_screw_at_rest_is_refused():
     assert error.value.faults[0].where == "operation.screw_speed"
 
 
+@pytest.mark.slow
 def test_a_computed_reversal():
     """That of a case: what it goes to is the torque of a run, and the helix comes back hundreds of times later."""
     found = compute.reversal(CASE, ReversalOptions())
     run = CASE.model(CASE.screw, CASE.lubricant, axial_load=0.0, screw_speed=float(CASE.operation.screw_speed))
     assert float(found.reversal.steady_torque) == pytest.approx(float(run.screw_torque), rel=1e-12)
-    helix, spin = (by_share(found.places_by_mechanism[name])[0.9] for name in ("helix", "spin_and_curvature"))
+    helix, spin = (by_share(found.swing_by_mechanism[name])[0.9] for name in ("helix", "spin_and_curvature"))
     assert helix.screw_angle > 100 * spin.screw_angle > 0
-    assert found.first.model.presliding_stiffness > 10 * found.tracking.model.presliding_stiffness
-    errors = [fit.error.largest for fit in found.elements]
-    assert max(errors) < found.tracking.error.largest < found.first.error.largest
+    assert found.dahl_first.model.presliding_stiffness > 10 * found.dahl.model.presliding_stiffness
+    errors = [fit.error.largest for fit in found.slip_elements]
+    assert max(errors) < found.dahl.error.largest < found.dahl_first.error.largest
     # the elements, with what is at once, lose on short strokes what the balls do, to what is said
     (said,) = [one for one in found.warnings if one.id == "reversal.work_of_elements"]
-    for fit in found.elements:
+    for fit in found.slip_elements:
         assert len(fit.loops) == 4
         ratios = [
             work_share(fit.elements, loop.stroke, at_once=found.curve.at_once) / loop.work_share for loop in fit.loops
@@ -213,4 +215,4 @@ def test_a_computed_reversal():
         assert fit.work_error <= said.value < 0.25
     assert "0.5 deg to ±5 deg" in said.text
     results = document(found)["results"]["slip_elements"]
-    assert [one["work_error"] for one in results] == [fit.work_error for fit in found.elements]
+    assert [one["work_error"] for one in results] == [fit.work_error for fit in found.slip_elements]

@@ -11,8 +11,8 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
-from ballscrew.physics.components.chain_force import ChainBallForce
-from ballscrew.physics.components.nut_losses import ReturnBraking
+from ballscrew.physics.laws.ball_chain import ChainBallForce
+from ballscrew.physics.laws.nut_losses import ReturnBraking
 from ballscrew.physics.moving_balls.ripple import (
     FullCircuit,
     MissingBall,
@@ -21,8 +21,7 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
-from ballscrew.questions.ripple.answer import RippleResults, document
-from ballscrew.questions.ripple.compute import ALL, defects_of, given_of, ripple_of
+from ballscrew.questions.ripple.compute import ALL, RippleResults, defects_of, document, given_of, ripple_of
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.ripple.sheet import sheet
 from support.answers import undescribed, without_unit
@@ -44,6 +43,7 @@ def report(case):
     return ripple_of(case, dataclasses.replace(OPTIONS, fault=["preload=35 %", "spall=2 mm x 2 um"], seeds=3))
 
 
+@pytest.mark.slow
 def test_the_numbers_are_those_of_the_physics(case, report):
     given = {"axial_load": 0.0, "screw_speed": float(case.operation.screw_speed), "gap": 0.55, "groove_deviation": 1e-6}
     usual, left = (
@@ -64,6 +64,7 @@ def test_the_numbers_are_those_of_the_physics(case, report):
     assert sum(results["parts"].values()) == pytest.approx(results["mean"], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_range_is_that_of_nuts_of_other_seeds(case, report):
     others = [ripple_of(case, dataclasses.replace(OPTIONS, seed=seed)).ripple.peak_to_peak for seed in (1, 2, 3)]
     assert report.range.nuts == 3
@@ -113,6 +114,7 @@ def test_the_sheet_has_the_numbers_of_the_document(report):
         assert set(nut) == {"as it is", *report.faults}
 
 
+@pytest.mark.slow
 def test_the_return_of_a_case_is_that_of_the_chain(case):
     law = ReturnBraking(return_balls=10, wall_factor=30.0)
     nut = dataclasses.replace(case.screw.nut, losses={"recirculation": law})
@@ -162,6 +164,7 @@ def test_a_wrong_fault_is_refused(case, fault, message):
         ripple_of(case, dataclasses.replace(OPTIONS, fault=[fault]))
 
 
+@pytest.mark.slow
 def test_all_leaves_out_a_preload_that_is_not_there(case):
     single = dataclasses.replace(case.screw, nut=bs.SingleNut(angle_under_load=True))
     operation = dataclasses.replace(case.operation, axial_load=800.0)

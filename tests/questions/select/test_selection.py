@@ -75,6 +75,7 @@ ROWS = {"rows": "rexroth-32x"}
 ROW = {"rows": "rexroth-32x20"}
 
 
+@pytest.mark.slow
 def test_the_motor_accelerates_the_shaft_that_the_list_prints(ballscrew, tmp_path):
     """The torque is that of ``duty`` with the printed inertia given, and that of steel of 32 mm and 1 m is in it."""
     need = {**UP, **ROW, "acceleration": "3.6 m/s^2", "nut": "single", "length": "1 m", "ends": "fixed-supported"}
@@ -154,6 +155,7 @@ def order_of_failing(candidates, objective, *, asks_for_life):
     return [one[-1] for one in [*sorted(failing), *sorted(ruled_out)]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "need",
     [
@@ -325,6 +327,7 @@ def test_what_is_assumed_is_said():
     assert check.value == pytest.approx(math.pi * 7850 * 0.04**4 * 0.5 / 32)
 
 
+@pytest.mark.slow
 def test_a_vertical_axis_lists_its_motor_and_its_brake(ballscrew, tmp_path):
     """What is needed of motor and brake stands in all forms of the list; a preload that is lost never holds."""
     need, table = tmp_path / "need.toml", tmp_path / "list.csv"
@@ -355,6 +358,7 @@ def test_a_vertical_axis_lists_its_motor_and_its_brake(ballscrew, tmp_path):
     assert lines[place + 1].count("N m") == 3
 
 
+@pytest.mark.slow
 def test_the_motor_of_a_starved_cycle_is_listed_by_the_larger_torque(ballscrew, tmp_path):
     """Largest and RMS torque are those in a full bath of cold oil, in all forms of the list."""
     need, table = tmp_path / "need.toml", tmp_path / "list.csv"
@@ -455,6 +459,7 @@ def test_what_must_drive_back_is_judged_by_the_larger_friction():
     assert found["forbidden"].value >= ideal - float(friction.screw_torque) > 0
 
 
+@pytest.mark.slow
 def test_without_a_life_what_lives_short_is_ranked_last():
     """A small screw loses least and lives some hundred hours: nothing fails, and it comes after the others."""
     need = {"force": "3 kN", "feed": "12 m/min", "nut": "single", "rows": "hiwin", "bodies": {}}
@@ -516,6 +521,7 @@ def test_why_none_holds_stands_at_the_top():
     assert failing.splitlines()[2].startswith("a candidate holds only once all checks are judged: give installation")
 
 
+@pytest.mark.slow
 def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
     example = ROOT / "examples" / "vertical_axis.toml"
     found = bs.select(example, words="hiwin-40-20k4").ranked[0].candidate
@@ -529,6 +535,7 @@ def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
     assert found.duty.numbers["energy_lost"] == pytest.approx(alone["results"]["energy_lost"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_load_that_takes_the_preload_away_is_a_check_that_fails():
     """By the force of the need, and by the largest of a cycle though steady travel leaves preload."""
     tables = {"force": "8 kN", "feed": "15 m/min", "nut": "double", "preload": "2 %", "rows": "hiwin-40-20k4"}
@@ -584,6 +591,7 @@ MOVING = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_mass_and_an_acceleration_are_an_axis_and_a_motion():
     """The short names are the tables of a duty: the largest load is m (g + a), the life that of the cycle."""
     found = bs.select(MOVING)
@@ -632,6 +640,7 @@ def test_requirements_are_checks():
     assert not found.holds
 
 
+@pytest.mark.slow
 def test_tables_pictures_and_own_rows(ballscrew, tmp_path):
     rows = tmp_path / "rows.csv"
     own = (ROOT / "examples" / "own_screws.csv").read_text(encoding="utf-8").splitlines()
@@ -714,6 +723,7 @@ def need_file(folder, **others):
     return path
 
 
+@pytest.mark.slow
 def test_the_case_of_a_candidate_goes_on_unchanged(ballscrew, tmp_path):
     """Duty, axis, warm-up and run take the file that ``--to`` writes, and duty has the numbers of the list."""
     (tmp_path / "out").mkdir()
@@ -738,6 +748,7 @@ def test_the_case_of_a_candidate_goes_on_unchanged(ballscrew, tmp_path):
     assert json.loads(ballscrew("warm-up", case, "--hours", "0.1", "--json").stdout)["results"]
 
 
+@pytest.mark.slow
 def test_the_case_of_a_short_need_says_what_was_estimated(ballscrew, tmp_path):
     """The oil, a preload and the length of the shaft of a row shipped; also numbers of the screw of one's own row."""
     need = tmp_path / "need.toml"
@@ -758,6 +769,7 @@ def test_the_case_of_a_short_need_says_what_was_estimated(ballscrew, tmp_path):
     assert changed.estimated == {*oil, "nut.preload"}
 
 
+@pytest.mark.slow
 def test_the_case_of_another_rank(ballscrew, tmp_path):
     need, case = need_file(tmp_path, preload=["3 %", "5 %"]), tmp_path / "axis.toml"
     document = json.loads(ballscrew("select", need, "--complete", "--json", "--rank", "2", "--to", case).stdout)
@@ -804,6 +816,7 @@ def test_tables_are_written_though_there_is_no_case_to_write(ballscrew, tmp_path
     assert not case.exists()
 
 
+@pytest.mark.slow
 def test_the_case_of_a_row_of_ones_own_needs_no_table(ballscrew, tmp_path):
     """Written elsewhere it finds the oil that the need names by a file; model and calibration are those asked for."""
     (tmp_path / "out").mkdir()

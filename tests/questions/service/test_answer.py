@@ -25,6 +25,7 @@ def answer(request, ballscrew):
     return json.loads(ballscrew("service", *request.param, "--json").stdout)
 
 
+@pytest.mark.slow
 def test_every_number_of_a_preload_is_on_every_face(ballscrew):
     answer = json.loads(ballscrew("service", *ASKED["two logs"], "--json").stdout)
     words = ballscrew("service", *ASKED["two logs"]).stdout
@@ -43,11 +44,13 @@ def test_every_number_of_a_preload_is_on_every_face(ballscrew):
         assert f"{value} N ({low} to {high})" in words
 
 
+@pytest.mark.slow
 def test_results_are_valid_by_their_schema(answer):
     declared.schema(ServiceResults).model_validate(answer["results"])
     assert ("ratio" in answer["results"]) != ("torque" in answer["results"])
 
 
+@pytest.mark.slow
 def test_every_number_has_a_unit(answer):
     (causes,) = [answer["results"].pop("alternatives", [])]
     assert list(without_unit(answer["results"], answer["units"])) == []

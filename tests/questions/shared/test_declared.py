@@ -12,7 +12,7 @@ from typing_extensions import TypeAliasType
 
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Torque, Unit
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer, Column
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer, Column, part
 
 
 class Point(NamedTuple):
@@ -27,42 +27,42 @@ class Path(Answer):
     def __init__(self, ends=None, motor=None):
         self._ends, self._motor = ends, motor
 
-    @property
+    @part
     def torque(self) -> Annotated[Torque, Info("M", "torque along the path", "N mm")]:
         """Not read: the meaning is that of the annotation."""
         return np.float64(1.5)
 
-    @property
+    @part
     def loads(self) -> Mapping[str, Force]:
         """Load of each half. More of it."""
         return {"left": 1.0, "right": np.float64(2.0)}
 
-    @property
+    @part
     def lives(self) -> Annotated[Mapping[str, float], Unit("1")]:
         """Lives."""
         return {"left": 3.0}
 
-    @property
+    @part
     def places(self) -> Annotated[Sequence[Length], FINITE]:
         """Places."""
         return np.array([0.0, 0.5])
 
-    @property
+    @part
     def points(self) -> Sequence[Point]:
         """Points."""
         return [Point("start", 0.0)]
 
-    @property
+    @part
     def holds(self) -> bool:
         """True where it holds."""
         return np.bool_(True)
 
-    @property
+    @part
     def ends(self) -> Point | None:
         """Its end, null where there is none."""
         return self._ends
 
-    @property
+    @part
     def motor(self) -> Annotated[Point | None, LEFT_OUT]:
         """The motor, where there is one."""
         return self._motor
@@ -165,7 +165,7 @@ def test_a_name_of_an_array_is_an_array():
     class Of(Answer):
         """Forces."""
 
-        @property
+        @part
         def forces(self) -> Annotated[numbers[np.float64], Info("F", "forces", "N")]:
             """Forces."""
             return np.array([1.0])

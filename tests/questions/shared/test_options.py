@@ -17,7 +17,7 @@ from ballscrew.faces.cli import main
 from ballscrew.faces.cli.options import Output, with_flags
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web import question_api
-from ballscrew.faces.web.bodies import BandBody, FitBody, HandOverBody, NeedBody, OptimiseBody, ReportBody, SweepBody
+from ballscrew.faces.web.bodies import BandBody, FitBody, HandOverBody, ReportBody, SweepBody
 from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
@@ -35,6 +35,7 @@ from ballscrew.questions.records import QUESTIONS
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.options import ListOptions, SelectOptions
+from ballscrew.questions.select.question import TableOptions
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
 from ballscrew.questions.shared.option_values import read
@@ -59,7 +60,7 @@ COMMANDS = {
     "reversal": (ReversalOptions,),
     "ripple": (RippleOptions,),
     "run": (BandOptions,),
-    "select": (SelectOptions, ListOptions),
+    "select": (SelectOptions, ListOptions, TableOptions),
     "sensitivity": (SensitivityOptions,),
     "service": (ServiceOptions, ReadingOptions),
     "sweep": (SweepOptions,),
@@ -71,9 +72,7 @@ BODIES = {
     BandOptions: BandBody,
     FitOptions: FitBody,
     HandOverOptions: HandOverBody,
-    OptimiseOptions: OptimiseBody,
     ReportOptions: ReportBody,
-    SelectOptions: NeedBody,
     SweepOptions: SweepBody,
     **{cls: question_api.BODIES[each.name] for each in QUESTIONS for cls in each.sent_options},
 }

@@ -63,6 +63,7 @@ def test_lines_are_of_torques_of_known_nuts(table):
     assert [kinds[name] for name in ("reference", "rexroth-2006", "jis")] == ["model", "calibration", "rule"]
 
 
+@pytest.mark.slow
 def test_lines_have_the_statistics_of_their_rows(table, asked):
     (entries, _), *_ = validation.evaluate(asked)
     single = {row.name: row for row in table if row.maker == "Rexroth"}
@@ -104,6 +105,7 @@ def test_sets_declare_what_was_chosen_on_them():
     assert not {"rexroth-double-nut", "rexroth-single-nut"} & set(never)
 
 
+@pytest.mark.slow
 def test_entries_computed_before_are_used(asked, table):
     found = [entries for entries, _ in validation.evaluate(asked)]
     again, _ = summaries.summary(asked, found)

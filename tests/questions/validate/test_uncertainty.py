@@ -27,6 +27,7 @@ def entry(names, model=REFERENCE, calibration=None):
     return Entry(data=STOCK, model=model, calibration=calibration, points=points)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["R32-5B2-OFSW", "R16-5B1-FSW"])
 @pytest.mark.parametrize("fitted", [None, "rexroth-2006"])
 def test_the_band_of_a_row_is_that_of_a_case(name, fitted):
@@ -46,6 +47,7 @@ def test_the_band_of_a_row_is_that_of_a_case(name, fitted):
     assert one.uncertainty[0] < one.value < one.uncertainty[1]
 
 
+@pytest.mark.slow
 def test_rows_together_have_the_bands_that_each_has_alone():
     names = ["R10-4B1-FSB", "R32-32K2-FSC", "R40-10B2-FDW", "R32-10B2-FDW", "2R16-32V2-DFSH", "R40-8B2-OFSW"]
     together = {point.name: point for point in with_bands(entry(names), samples=32).points}

@@ -239,8 +239,8 @@ class Axis(ByValue):
                 GUIDES: self.guide_friction_coefficient * weight * every,
                 SEALS: self.guide_seal_force * every,
             }
-        found = self.guides.under(self.carriage_loads(acceleration), speed, temperature).contributions
-        return {name: part * every for name, part in found.items()}
+        contributions = self.guides.under(self.carriage_loads(acceleration), speed, temperature).contributions
+        return {name: part * every for name, part in contributions.items()}
 
     def carriage_loads(self, acceleration: Acceleration = 0.0) -> Force:
         """Load of each carriage, N, at each ``acceleration`` (m/s²), the carriages along the last axis."""

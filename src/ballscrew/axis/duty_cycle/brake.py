@@ -79,22 +79,22 @@ class Brake(ByValue):
     @property
     def falls(self) -> bool:
         """True where the axis starts to move by itself, or goes on once started, in any condition."""
-        return any(found.falls or found.goes_on for found in self.conditions)
+        return any(condition.falls or condition.goes_on for condition in self.conditions)
 
     @property
     def starts(self) -> bool:
         """True where the axis starts to move by itself in any condition."""
-        return any(found.falls for found in self.conditions)
+        return any(condition.falls for condition in self.conditions)
 
     @property
     def holding_torque(self) -> Torque:
         """Largest torque that keeps the axis at rest, N m."""
-        return max(found.holding_torque for found in self.conditions)
+        return max(condition.holding_torque for condition in self.conditions)
 
     @property
     def load_torque(self) -> Torque:
         """Torque of the load without any friction, N m: what a brake holds whose friction is not counted on."""
-        return max(abs(found.load_torque) for found in self.conditions)
+        return max(abs(condition.load_torque) for condition in self.conditions)
 
     @property
     def brake_torque(self) -> Torque:
@@ -111,12 +111,12 @@ def brake_of(duty: Duty, *, brake_factor: Ratio = BRAKE_FACTOR, process_force: F
     leaves it about as large, so that the conditions differ little unless it lies beyond the speeds of the duty.
     """
     off = _Off(duty, duty.axis.gravity_force + process_force)
-    found = off.let_go({"as in the case": None})
+    result = off.let_go({"as in the case": None})
     if isinstance(duty.driven, ModelledScrew):
         if duty.driven.lubricant.temperature is not None:
-            found += off.let_go({"cold": COLD, "hot": HOT})
-        found.append(off.dry(found[0]))
-    return Brake(conditions=found, brake_factor=brake_factor)
+            result += off.let_go({"cold": COLD, "hot": HOT})
+        result.append(off.dry(result[0]))
+    return Brake(conditions=result, brake_factor=brake_factor)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -150,7 +150,7 @@ class _Off:
         """Friction about the motor at sizes of the speed of the screw, in the direction of the fall, by temperature."""
         falling = np.copysign(speeds, -self.load)
         every = np.tile(falling, len(temperatures))
-        warm = np.repeat([np.nan if found is None else found for found in temperatures], len(speeds))
+        warm = np.repeat([np.nan if temperature is None else temperature for temperature in temperatures], len(speeds))
         torques = self.duty.driven.along(np.full_like(every, self.load), every, warm).torque
         return [
             self.with_supports(torque, falling, temperature)
@@ -164,12 +164,12 @@ class _Off:
         screw = driven.screw
         if screw.nut.set_at_rest:  # the balls may be back on their line: the lower friction counts
             screw = dataclasses.replace(screw, nut=dataclasses.replace(screw.nut, set_at_rest=False))
-        found: list[Torque] = []
+        torques: list[Torque] = []
         for temperature in temperatures:
             oil = own if temperature is None else own.at(temperature)
             rest = breakaway(driven.model, screw, oil, axial_load=np.array([self.load]), loads=loads)
-            found.append(float(self.with_supports(rest.torque, np.zeros(1), temperature)[0]))
-        return found
+            torques.append(float(self.with_supports(rest.torque, np.zeros(1), temperature)[0]))
+        return torques
 
     def let_go(self, conditions: Mapping[str, Temperature | None]) -> list[LetGo]:
         """The axis in conditions of its oil, by name; power may fail at any speed of the duty."""
@@ -180,7 +180,7 @@ class _Off:
         # and at the speed up to which a steady fall is looked for
         every = self.friction(np.append(speeds, FASTEST), temperatures)
         rest = self.from_rest(driven, temperatures) if isinstance(driven, ModelledScrew) else None
-        found: list[LetGo] = []
+        result: list[LetGo] = []
         for number, (condition, temperature) in enumerate(conditions.items()):
             friction, at_fastest = every[number][:-1], float(every[number][-1])
             least = int(np.argmin(friction))  # a NaN is taken as the least
@@ -193,8 +193,8 @@ class _Off:
             if self.pull - float(friction[least]) > 0 > self.pull - at_fastest:
                 steady = root_scalar(left, bracket=(slowest, FASTEST), rtol=1e-6).root * lead / (2 * math.pi)
             started = float(friction[0]) if rest is None else rest[number]
-            found.append(self._record(condition, temperature, started, float(friction[least]), steady))
-        return found
+            result.append(self._record(condition, temperature, started, float(friction[least]), steady))
+        return result
 
     def dry(self, oiled: LetGo) -> LetGo:
         """The axis without oil: friction from rest at all speeds."""

@@ -88,7 +88,7 @@ class CycleLife(ByValue):
     @property
     def revolutions(self) -> Ratio:
         """Basic rating life L10 by both flanks or halves, revolutions (ISO3408-5); NaN without a rating."""
-        if not self.lives or any(math.isnan(found) for found in self.lives.values()):
+        if not self.lives or any(math.isnan(each) for each in self.lives.values()):
             return math.nan
         worst = min(self.lives.values())
         return worst if math.isinf(worst) else float(life.combined_life(*self.lives.values()))
@@ -96,8 +96,8 @@ class CycleLife(ByValue):
     @property
     def revolutions_of_the_worse(self) -> Ratio:
         """Turns by the larger mean load alone (THKGeneral); NaN without a rating."""
-        found = [*self.lives.values()]
-        return math.nan if any(map(math.isnan, found)) else min(found, default=math.nan)
+        values = [*self.lives.values()]
+        return math.nan if any(map(math.isnan, values)) else min(values, default=math.nan)
 
     @property
     def cycles(self) -> Ratio:

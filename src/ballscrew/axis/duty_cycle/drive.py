@@ -64,20 +64,20 @@ class MotorCheck(ByValue):
     @lazy
     def worst_torque(self) -> tuple[str, float]:
         """The condition of the track that counts in that state, and the torque there, N m."""
-        found = {condition: float(torque[self.worst]) for condition, torque in self.torques.items()}
-        condition = max(found, key=lambda name: abs(found[name]))
-        return condition, found[condition]
+        values = {condition: float(torque[self.worst]) for condition, torque in self.torques.items()}
+        condition = max(values, key=lambda name: abs(values[name]))
+        return condition, values[condition]
 
     @lazy
     def worst_rms(self) -> tuple[str, float]:
         """The condition of the track that has the larger RMS torque, and that torque, N m."""
         states = self.duty.states
-        found = {
+        values = {
             condition: math.sqrt(states.integral(torque**2) / states.cycle_time)
             for condition, torque in self.torques.items()
         }
-        condition = max(found, key=lambda name: found[name])
-        return condition, found[condition]
+        condition = max(values, key=lambda name: values[name])
+        return condition, values[condition]
 
     @lazy
     def copper_loss(self) -> Energy | None:

@@ -80,8 +80,8 @@ def duty(
     Raises :class:`~ballscrew.basis.errors.InputError` as the model does, for a model without a lubricant, and for
     elements with the name of another part of the torque.
     """
-    found = cycle(model, screw, lubricant, axis=axis, motion=motion, also=also, recorded=recorded)
-    return found if isinstance(motion, MotionStates) else with_turns(found)
+    result = cycle(model, screw, lubricant, axis=axis, motion=motion, also=also, recorded=recorded)
+    return result if isinstance(motion, MotionStates) else with_turns(result)
 
 
 def cycle(
@@ -130,13 +130,13 @@ def with_turns(cycle: Duty) -> Duty:
         return cycle
     # the loss of belt or gears bends where what they pass on changes its sign
     signs = [sign_changes(states, values) for one in _conditions(cycle) for values in (one.torque, one.passed_on)]
-    found = _with_states(cycle, [*itertools.chain(*signs)])
+    result = _with_states(cycle, [*itertools.chain(*signs)])
     largest = [
-        largest_within(found.states, values)
-        for one in _conditions(found)
+        largest_within(result.states, values)
+        for one in _conditions(result)
         for values in (one.torque, -one.torque, one.power, -one.power, one.screw.torque)
     ]
-    return _with_states(found, [*itertools.chain(*largest)])
+    return _with_states(result, [*itertools.chain(*largest)])
 
 
 def _conditions(cycle: Duty) -> list[Duty]:
@@ -148,14 +148,14 @@ def _with_states(cycle: Duty, at: Sequence[float]) -> Duty:
     """A cycle with states at more instants, s: the model is asked there, and nowhere again."""
     if not at:
         return cycle
-    states, found = cycle.states, dataclasses.replace(cycle, states=cycle.states.cut_at(at))
-    place = states.places_of(found.states)
+    states, result = cycle.states, dataclasses.replace(cycle, states=cycle.states.cut_at(at))
+    place = states.places_of(result.states)
     new = place < 0
     place[new] = states.time.size + np.arange(np.sum(new))
-    more = found.driven.along(found.axial_load[new], found.screw_speed[new], found.states.temperature[new])
-    vars(found)["screw"] = cycle.screw.joined(more, place)
-    vars(found)["flooded"] = found if cycle.flooded is cycle else _with_states(cycle.flooded, at)
-    return found
+    more = result.driven.along(result.axial_load[new], result.screw_speed[new], result.states.temperature[new])
+    vars(result)["screw"] = cycle.screw.joined(more, place)
+    vars(result)["flooded"] = result if cycle.flooded is cycle else _with_states(cycle.flooded, at)
+    return result
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -209,9 +209,9 @@ class Duty(ByValue):
         driven = self.driven
         if not isinstance(driven, ModelledScrew) or driven.in_full_bath is driven:
             return self
-        found = dataclasses.replace(self, driven=driven.in_full_bath)
-        vars(found).update(loads=self.loads, _supports=self._supports)  # which have nothing of the screw's oil
-        return found
+        result = dataclasses.replace(self, driven=driven.in_full_bath)
+        vars(result).update(loads=self.loads, _supports=self._supports)  # which have nothing of the screw's oil
+        return result
 
     @lazy
     def starved(self) -> bool:
@@ -228,8 +228,8 @@ class Duty(ByValue):
     @lazy
     def shaft_friction(self) -> Mapping[str, Numbers]:
         """Friction torques about the shaft of the screw by mechanism and element, their magnitudes, N m."""
-        found = {MECHANISMS.get(name, name): torque for name, torque in self.screw.contributions.items()}
-        return {**found, **self.support_friction}
+        values = {MECHANISMS.get(name, name): torque for name, torque in self.screw.contributions.items()}
+        return {**values, **self.support_friction}
 
     @lazy
     def support_friction(self) -> Mapping[str, Numbers]:
@@ -253,15 +253,15 @@ class Duty(ByValue):
     @lazy
     def support_validity(self) -> Mapping[str, Mapping[str, Numbers]]:
         """Masks of the conditions of the elements beside the screw and of the guides, by element and condition."""
-        found: dict[str, Mapping[str, Numbers]] = {}
+        support_validity: dict[str, Mapping[str, Numbers]] = {}
         state, back = _distinct(self.axial_load, self.screw_speed, self._temperature)
         every = np.ones(np.shape(state.screw_speed), dtype=bool)
         for name, element in self.also.items():
-            found[name] = {reason: (mask & every)[back] for reason, mask in element(state).validity.items()}
+            support_validity[name] = {reason: (mask & every)[back] for reason, mask in element(state).validity.items()}
         if self.axis.guides is not None:
             loads = self.axis.carriage_loads(self.states.acceleration)
-            found[GUIDES] = self.axis.guides.under(loads, self.states.speed).validity
-        return found
+            support_validity[GUIDES] = self.axis.guides.under(loads, self.states.speed).validity
+        return support_validity
 
     def supports_at(
         self, axial_load: Numbers, screw_speed: Numbers, temperature: Numbers | None
@@ -271,19 +271,19 @@ class Duty(ByValue):
         ``axial_load`` (N), ``screw_speed`` (rad/s) and ``temperature`` (K; None for that of each oil) are arrays of one
         length. Each distinct state is computed once.
         """
-        found: dict[str, Mapping[str, Numbers]] = {}
+        supports: dict[str, Mapping[str, Numbers]] = {}
         if self.axis.bearing_torque:
-            found[BEARINGS] = {"known": np.full_like(screw_speed, self.axis.bearing_torque)}
+            supports[BEARINGS] = {"known": np.full_like(screw_speed, self.axis.bearing_torque)}
         if not self.also:
-            return found
+            return supports
         state, back = _distinct(axial_load, screw_speed, temperature)
         speed = state.screw_speed
         for name, element in self.also.items():
             parts = element(state).contributions
-            found[name] = {
+            supports[name] = {
                 MECHANISMS.get(part, part): np.broadcast_to(torque, speed.shape)[back] for part, torque in parts.items()
             }
-        return found
+        return supports
 
     @lazy
     def parts(self) -> Mapping[str, Numbers]:
@@ -353,8 +353,8 @@ class Duty(ByValue):
     @lazy
     def screw_torque(self) -> float:
         """Largest friction torque of the screw in motion, N m; NaN where nothing moves."""
-        found = self.screw.torque[self.states.direction != 0]
-        return float(np.max(found)) if found.size else math.nan
+        result = self.screw.torque[self.states.direction != 0]
+        return float(np.max(result)) if result.size else math.nan
 
     @lazy
     def mean_speed(self) -> float:
@@ -399,7 +399,7 @@ class Duty(ByValue):
         travelled = np.abs(states.speed)
         rubs = self.axis.guide_friction(states.speed, states.acceleration)
         turned = np.abs(self.screw_speed)
-        found = {
+        values = {
             NUT: {name: lost[name] for name in (*own, *broken)},
             **{
                 name: {part: states.integral(torque * turned) for part, torque in parts.items()}
@@ -408,7 +408,7 @@ class Duty(ByValue):
             GUIDES: {_OF_GUIDES.get(part, part): states.integral(force * travelled) for part, force in rubs.items()},
             "transmission": {"transmission": lost["transmission"]},
         }
-        return {name: parts for name, parts in found.items() if name == NUT or any(parts.values())}
+        return {name: parts for name, parts in values.items() if name == NUT or any(parts.values())}
 
     @lazy
     def heat(self) -> Mapping[str, Power]:

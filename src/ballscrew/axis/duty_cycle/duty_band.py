@@ -95,7 +95,7 @@ def duty_band(
         name: one.quantile(share) for (name, one), share in zip(others.items(), shares[len(names) :], strict=True)
     }
     more = {name: friction_beside(duty, name) for name in others}
-    found: dict[str, list[Numbers]] = {}
+    result: dict[str, list[Numbers]] = {}
     step = max(1, _AT_ONCE // load.size)
     for start in range(0, samples, step):
         chosen = {name: drawn[start : start + step, None] for name, drawn in values.items()}
@@ -104,13 +104,13 @@ def duty_band(
         for name, (central, of_unit) in more.items():
             every = every + (drawn_beside[name][start : start + step, None] - central) * of_unit
         for name, numbers in numbers_of_cycle(duty, every).items():
-            found.setdefault(name, []).append(numbers)
+            result.setdefault(name, []).append(numbers)
         if done is not None:
             done(min(start + step, samples), samples)
     own = numbers_of_cycle(duty, duty.screw.torque[None, :])
     ends = ((1 - level) / 2, 0.5, (1 + level) / 2)
     bands: dict[str, NumberBand] = {}
-    for name, parts in found.items():
+    for name, parts in result.items():
         low, median, high = (float(q) for q in np.nanquantile(np.concatenate(parts), ends, method="inverted_cdf"))
         bands[name] = NumberBand(float(own[name][0]), median, Interval(low, high))
     return DutyBand(level, samples, bands)

@@ -64,15 +64,15 @@ class Motor(ByValue):
         """Faults of a curve against the numbers of the data sheet beside it."""
         if len(self.curve) < 2:
             return []
-        found: list[Fault] = []
+        misfits: list[Fault] = []
         highest, last = max(torque for _, torque in self.curve), self.curve[-1][0]
         if highest > self.peak_torque * (1 + 1e-9):
             given, remedy = f"{highest:g} N m", "check the unit of the points, or give the peak torque of the curve"
-            found.append(Fault("motor.curve", "lies above the peak torque", given, remedy))
+            misfits.append(Fault("motor.curve", "lies above the peak torque", given, remedy))
         if last < self.largest_speed * (1 - 1e-9):
             remedy = "add a point at the largest speed"
-            found.append(Fault("motor.curve", "ends below the largest speed", shown(last, "rad/s"), remedy))
-        return found
+            misfits.append(Fault("motor.curve", "ends below the largest speed", shown(last, "rad/s"), remedy))
+        return misfits
 
     def peak_at(self, speed: Numbers) -> Numbers:
         """Largest torque at each ``speed`` (rad/s) of either sign, N m; zero beyond the largest speed."""

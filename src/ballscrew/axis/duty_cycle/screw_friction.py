@@ -98,9 +98,9 @@ class ModelledScrew(ByValue):
         full = self.model.in_full_bath
         if full is self.model:
             return self
-        found = dataclasses.replace(self, model=full)
-        vars(found)["_solved"] = self._solved  # the loads of the balls have nothing of the oil
-        return found
+        modelled_screw = dataclasses.replace(self, model=full)
+        vars(modelled_screw)["_solved"] = self._solved  # the loads of the balls have nothing of the oil
+        return modelled_screw
 
     def least_replenished(self, screw_speed: Numbers, temperature: Numbers) -> Ratio:
         """Least share of the rolling force that oil coming back late leaves over."""
@@ -114,14 +114,14 @@ class ModelledScrew(ByValue):
         own = np.nan if self.lubricant.temperature is None else float(self.lubricant.temperature)
         warm = np.where(np.isnan(temperature), own, temperature)
         distinct, back = distinct_states(axial_load, screw_speed, warm)
-        found = self._outputs([*_OUTPUTS, *self._names("contribution_")], distinct)
-        valid = found["valid"]
+        outputs = self._outputs([*_OUTPUTS, *self._names("contribution_")], distinct)
+        valid = outputs["valid"]
         reasons = self._names("validity_")
         masks = {name: np.ones(valid.shape, dtype=bool) for name in reasons}
         if not valid.all():  # which condition fails is asked only where one does
             for name, mask in self._outputs(reasons, distinct[:, ~valid]).items():
                 masks[name][~valid] = mask
-        every = {name: compact(values[back]) for name, values in {**found, **masks}.items()}
+        every = {name: compact(values[back]) for name, values in {**outputs, **masks}.items()}
         named = {
             kind: {name.removeprefix(kind): values for name, values in every.items() if name.startswith(kind)}
             for kind in ("contribution_", "validity_")
@@ -185,10 +185,10 @@ def distinct_states(axial_load: Numbers, screw_speed: Numbers, temperature: Numb
     if _is_one(temperature):
         # load and speed as one complex number sort ten times as fast as columns of three
         pairs, back = np.unique(axial_load + 1j * screw_speed, return_inverse=True)
-        found = np.stack([pairs.real, pairs.imag, np.full(pairs.size, temperature[0] if temperature.size else np.nan)])
+        values = np.stack([pairs.real, pairs.imag, np.full(pairs.size, temperature[0] if temperature.size else np.nan)])
     else:
-        found, back = np.unique(every, axis=1, return_inverse=True)
-    return (every, slice(None)) if found.shape[1] > REPEATED * every.shape[1] else (found, back.reshape(-1))
+        values, back = np.unique(every, axis=1, return_inverse=True)
+    return (every, slice(None)) if values.shape[1] > REPEATED * every.shape[1] else (values, back.reshape(-1))
 
 
 def _is_one(temperature: Numbers) -> bool:

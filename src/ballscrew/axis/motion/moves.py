@@ -62,21 +62,21 @@ def move(
     name: str = "",
 ) -> Sequence[PolynomialPhase]:
     """The phases of a move from rest to rest; a negative ``distance`` is a move backwards."""
-    found = timing(abs(distance), speed, acceleration, jerk)
+    result = timing(abs(distance), speed, acceleration, jerk)
     sign = math.copysign(1.0, distance)
-    peak = sign * found.acceleration
-    j = 0.0 if math.isinf(jerk) or not found.ramp else peak / found.ramp
+    peak = sign * result.acceleration
+    j = 0.0 if math.isinf(jerk) or not result.ramp else peak / result.ramp
     speeds_up, cruises, slows_down = (
         f"{name}: {what}" if name else what for what in ("accelerates", "cruises", "slows down")
     )
     plan = (
-        (speeds_up, found.ramp, 0.0, j),
-        (speeds_up, found.full, peak, 0.0),
-        (speeds_up, found.ramp, peak, -j),
-        (cruises, found.cruise, 0.0, 0.0),
-        (slows_down, found.ramp, 0.0, -j),
-        (slows_down, found.full, -peak, 0.0),
-        (slows_down, found.ramp, -peak, j),
+        (speeds_up, result.ramp, 0.0, j),
+        (speeds_up, result.full, peak, 0.0),
+        (speeds_up, result.ramp, peak, -j),
+        (cruises, result.cruise, 0.0, 0.0),
+        (slows_down, result.ramp, 0.0, -j),
+        (slows_down, result.full, -peak, 0.0),
+        (slows_down, result.ramp, -peak, j),
     )
     phases: list[PolynomialPhase] = []
     x, v = float(start), 0.0

@@ -67,14 +67,14 @@ class _Stroke(ByValue):
 
     def phases(self) -> Sequence[Phase]:
         """The phases of one cycle, each a :class:`~ballscrew.axis.motion.states.Phase`."""
-        found: list[Phase] = []
+        phases: list[Phase] = []
         forth = (0.0, self.stroke, self.force, "forth")
         back = (self.stroke, -self.stroke, self.return_force, "back")
         for start, distance, force, name in (forth, back)[: 2 if self.returns else 1]:
-            found += move(start, distance, self.speed, self.acceleration, self.limit_of_jerk, force=force, name=name)
+            phases += move(start, distance, self.speed, self.acceleration, self.limit_of_jerk, force=force, name=name)
             if self.dwell:
-                found.append(rest(start + distance, self.dwell))
-        return found
+                phases.append(rest(start + distance, self.dwell))
+        return phases
 
     def states(self) -> MotionStates:
         """States of one cycle: :class:`~ballscrew.axis.motion.states.MotionStates`."""
@@ -229,14 +229,14 @@ class Segments(ByValue):
 
     def phases(self) -> Sequence[Phase]:
         """The phases of all segments, each a :class:`~ballscrew.axis.motion.states.Phase`."""
-        found: list[PolynomialPhase] = []
+        phases: list[PolynomialPhase] = []
         position = 0.0
         for number, segment in enumerate(self.segments, start=1):
             name = segment.name or f"segment {number}"
             if segment.distance is not None:
                 own = segment.acceleration
                 acceleration: Any = self.acceleration if own is None else own
-                found += move(
+                phases += move(
                     position,
                     segment.distance,
                     abs(segment.speed),
@@ -249,13 +249,13 @@ class Segments(ByValue):
                 position += float(segment.distance)
             else:
                 duration: Any = segment.duration
-                found.append(
+                phases.append(
                     PolynomialPhase(
                         name, duration, position, segment.speed, force=segment.force, temperature=segment.temperature
                     )
                 )
                 position += float(segment.speed) * float(duration)
-        return found
+        return phases
 
     def states(self) -> MotionStates:
         """States of one cycle: :class:`~ballscrew.axis.motion.states.MotionStates`."""

@@ -137,8 +137,8 @@ class MotionStates(ByValue):
         """The place among these states of each state of the same motion with more cuts; -1 of one in another part."""
         own, others = (np.bincount(states.phase, minlength=len(self.phases)) for states in (self, cut))
         shift = np.cumsum(own) - own - (np.cumsum(others) - others)
-        found = np.arange(cut.time.size) + shift[cut.phase]
-        return np.where((own == others)[cut.phase], found, -1)
+        result = np.arange(cut.time.size) + shift[cut.phase]
+        return np.where((own == others)[cut.phase], result, -1)
 
     @property
     def stroke(self) -> float:

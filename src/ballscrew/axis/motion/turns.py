@@ -20,7 +20,7 @@ _ROUNDING, _GAIN = 1e-12, 1e-7
 
 def sign_changes(states: MotionStates, values: Numbers) -> list[float]:
     """The instants within phases at which a quantity changes its sign, s; ``values`` is it at the states."""
-    found: list[float] = []
+    result: list[float] = []
     known = np.abs(values[np.isfinite(values)])
     least = _ROUNDING * float(np.max(known, initial=0.0))
     for time, own in _parts(states, values):
@@ -29,13 +29,13 @@ def sign_changes(states: MotionStates, values: Numbers) -> list[float]:
         for at in np.flatnonzero(sign[1:] != sign[:-1]):
             ends = float(time[seen[at]]), float(time[seen[at + 1]])
             root: Any = brentq(_through(time, own), *ends, xtol=1e-14 * (ends[1] - ends[0]))
-            found.append(float(root))
-    return found
+            result.append(float(root))
+    return result
 
 
 def largest_within(states: MotionStates, values: Numbers) -> list[float]:
     """The instants at which a quantity is larger than at all states of its part of a phase, and than zero, s."""
-    found: list[float] = []
+    result: list[float] = []
     for time, own in _parts(states, values):
         at = int(np.argmax(own))
         if not 0 < at < own.size - 1 or not own[at] > 0 or not np.ptp(own) > _GAIN * own[at]:
@@ -45,8 +45,8 @@ def largest_within(states: MotionStates, values: Numbers) -> list[float]:
             _through(time, -own), bounds=(time[at - 1], time[at + 1]), method="bounded", options={"xatol": near}
         )
         if -best.fun > own[at] * (1 + _GAIN):
-            found.append(float(best.x))
-    return found
+            result.append(float(best.x))
+    return result
 
 
 def _parts(states: MotionStates, values: Numbers) -> Iterator[tuple[Numbers, Numbers]]:

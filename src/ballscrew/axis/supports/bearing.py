@@ -14,16 +14,16 @@ from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, accepts_units, faults_of, raise_if_any, shown
 from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Mask, Power, Ratio, Stiffness, Torque
 from ballscrew.basis.records import Record
-from ballscrew.physics.components.frame import bearing_frame
-from ballscrew.physics.components.laws import ProportionalBallForce
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut, SingleNut
-from ballscrew.physics.components.nut_losses import Seals
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce
+from ballscrew.physics.laws.frame import bearing_frame
+from ballscrew.physics.laws.nut_losses import Seals
 
 #: Ball diameter over (D − d), how much of the circle the balls fill, and the conformity: usual, of no catalogue.
 BALL_SHARE, FILLED, CONFORMITY = 0.3, 0.9, 0.52

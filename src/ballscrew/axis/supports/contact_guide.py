@@ -144,10 +144,10 @@ class ContactGuide(ByValue):
         along = np.asarray(speed)[..., np.newaxis]
         warm = None if temperature is None else np.asarray(temperature)[..., np.newaxis]
         each, turning = np.broadcast_arrays(np.asarray(loads, dtype=float), along / radius)
-        found = bearing_model(self.model)(
+        result = bearing_model(self.model)(
             self.contacts, self.lubricant, axial_load=each, screw_speed=turning, temperature=warm
         )
-        return GuideFriction(self, found, radius, np.asarray(speed), int(np.shape(loads)[-1]))
+        return GuideFriction(self, result, radius, np.asarray(speed), int(np.shape(loads)[-1]))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -49,30 +49,30 @@ def name_of(element: Any, laws: Mapping[str, type]) -> str:
 
 def misplaced(where: str, law: str, laws: Mapping[str, type], values: Mapping[str, Any]) -> list[Fault]:
     """Faults of values that another law has."""
-    found: list[Fault] = []
+    faults: list[Fault] = []
     for name, value in values.items():
         if name in fields_of_laws(laws) and name not in fields_of(laws[law]):
             others = " or ".join(f'"{other}"' for other, cls in laws.items() if name in fields_of(cls))
             remedy = f"leave it out, or write law = {others}"
-            found.append(Fault(f"{where}.{name}", f'the law "{law}" has none', reprlib.repr(value), remedy))
-    return found
+            faults.append(Fault(f"{where}.{name}", f'the law "{law}" has none', reprlib.repr(value), remedy))
+    return faults
 
 
 def missing(where: str, law: Any, values: Mapping[str, Any]) -> list[Fault]:
     """Faults of values that a law needs."""
-    known, found = fields_of(law), list[Fault]()
+    known, faults = fields_of(law), list[Fault]()
     for field in dataclasses.fields(law):
         if field.default is dataclasses.MISSING and field.name in known and field.name not in values:
             quantity = known[field.name]
             sample = "a number" if quantity.unit == "1" else f'"… {quantity.shown_in}"'
-            found.append(Fault(f"{where}.{field.name}", MISSING, "", f"add {field.name} = {sample}"))
-    return found
+            faults.append(Fault(f"{where}.{field.name}", MISSING, "", f"add {field.name} = {sample}"))
+    return faults
 
 
 def numbers_of(element: Any, laws: Mapping[str, type] | None = None) -> dict[str, Any]:
     """Numbers of an element that are given, in SI, with its law and the viscosity of its oil."""
-    found = {name: value for name in fields_of(type(element)) if (value := getattr(element, name)) is not None}
+    numbers = {name: value for name in fields_of(type(element)) if (value := getattr(element, name)) is not None}
     if laws is None:
-        return found
+        return numbers
     oil = getattr(element, "lubricant", None)
-    return {"law": name_of(element, laws), **found, **({} if oil is None else {"viscosity": oil.viscosity})}
+    return {"law": name_of(element, laws), **numbers, **({} if oil is None else {"viscosity": oil.viscosity})}

@@ -200,17 +200,17 @@ class KnownBearing(ByValue):
 
 
 def _faults(section: str, bearing: SKFBearing | PalmgrenBearing) -> list[Fault]:
-    found = faults_of(section, bearing)
-    found = found or faults_of_arrays(section, bearing, "bore", "outside_diameter", "rows", "preload")
-    if found:
-        return found
-    found = sizes_fault(section, bearing.bore, bearing.outside_diameter)
+    faults = faults_of(section, bearing)
+    faults = faults or faults_of_arrays(section, bearing, "bore", "outside_diameter", "rows", "preload")
+    if faults:
+        return faults
+    faults = sizes_fault(section, bearing.bore, bearing.outside_diameter)
     if bearing.rows > 1 and bearing.rows % 2:
-        found.append(Fault(f"{section}.rows", "must be one or even", f"{bearing.rows:g}", "give 1, 2 or 4"))
+        faults.append(Fault(f"{section}.rows", "must be one or even", f"{bearing.rows:g}", "give 1, 2 or 4"))
     if bearing.rows == 1 and bearing.preload > 0:
         given = shown(bearing.preload, "N")
-        found.append(Fault(f"{section}.preload", "one row braces nothing", given, "give rows = 2"))
-    return found
+        faults.append(Fault(f"{section}.preload", "one row braces nothing", given, "give rows = 2"))
+    return faults
 
 
 def _oil(lubricant: Lubricant, state: OperatingState) -> KinematicViscosity:

@@ -84,6 +84,6 @@ class MountedBearing(ByValue):
         if self.rigidity is not None:
             return float(self.rigidity), "as given"
         if isinstance(self.element, SupportBearing):
-            found = float(self.element.rigidity(self.load_share * axial_load))
-            return (found, "of balls and races, its rings rigid") if found > 0 else (None, "")
+            result = float(self.element.rigidity(self.load_share * axial_load))
+            return (result, "of balls and races, its rings rigid") if result > 0 else (None, "")
         return None, ""

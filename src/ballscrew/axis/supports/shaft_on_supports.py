@@ -55,8 +55,8 @@ def buckling_root(ends: Ends, share: float, *, nut_holds_slope: bool = False) ->
 
 def _root(by_load: Matrix, stiffness: Matrix) -> float:
     last = len(stiffness) - 1
-    found: Any = eigh(by_load, stiffness, eigvals_only=True, subset_by_index=[last, last])
-    return 1 / math.sqrt(float(found[0])) if found[0] > 0 else math.inf
+    result: Any = eigh(by_load, stiffness, eigvals_only=True, subset_by_index=[last, last])
+    return 1 / math.sqrt(float(result[0])) if result[0] > 0 else math.inf
 
 
 def _beam(ends: Ends, share: float, nut_holds_slope: bool) -> tuple[Matrix, Matrix, tuple[Matrix, Matrix]]:

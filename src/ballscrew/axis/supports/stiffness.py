@@ -136,10 +136,10 @@ def stiffness_over_stroke(
         "make": make,
         "installation": installation,
     }
-    found = [rigidity_iso3408(screw, **given, distance_to_bearing=float(place)) for place in places]
-    factor = found[0].accuracy_factor
-    nut = np.array([each.nut if factor is None else each.nut_corrected for each in found])
-    bearings = np.array([math.inf if math.isnan(each.bearings) else each.bearings for each in found])
+    values = [rigidity_iso3408(screw, **given, distance_to_bearing=float(place)) for place in places]
+    factor = values[0].accuracy_factor
+    nut = np.array([each.nut if factor is None else each.nut_corrected for each in values])
+    bearings = np.array([math.inf if math.isnan(each.bearings) else each.bearings for each in values])
     material = screw.screw_material
     d_c = rigidity.shaft_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle)
     G = presliding.shear_modulus(material.young_modulus, material.poisson_ratio)
@@ -147,7 +147,7 @@ def stiffness_over_stroke(
     groove = geometry.groove_root_diameter(
         screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
     )
-    assumed = [*found[0].assumed]
+    assumed = [*values[0].assumed]
     if mount_rigidity is None:
         assumed.append("mount rigid: no rigidity of it is given")
     if not nut_holds_slope:
@@ -155,7 +155,7 @@ def stiffness_over_stroke(
     return AxisStiffness(
         position=places,
         nut=nut,
-        shaft=np.array([each.shaft for each in found]),
+        shaft=np.array([each.shaft for each in values]),
         bearings=bearings,
         mount=np.full_like(places, math.inf if mount_rigidity is None else mount_rigidity),
         torsion=formulas.axial_rigidity_of_torsion(twist, screw.lead),

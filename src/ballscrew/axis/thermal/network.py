@@ -108,75 +108,75 @@ class Network(ByValue):
     @functools.cached_property
     def capacity(self) -> Numbers:
         """Heat capacities, J/K."""
-        found = np.full(self.size, self.shaft.cell_capacity)
-        found[-3] = self.nut_mass * CAPACITY
-        found[-2:] = self.surroundings.bearing_mass * CAPACITY
-        return found
+        values = np.full(self.size, self.shaft.cell_capacity)
+        values[-3] = self.nut_mass * CAPACITY
+        values[-2:] = self.surroundings.bearing_mass * CAPACITY
+        return values
 
     @functools.cached_property
     def losses(self) -> Numbers:
         """Conductances to the outside, W/K: to the air, and of the cells to the coolant."""
-        found = np.full(self.size, self.shaft.cell_to_air + self.shaft.cell_to_coolant)
-        found[-3] = self.surroundings.nut_conductance
-        found[-2:] = self.surroundings.bearing_conductance
-        return found
+        losses = np.full(self.size, self.shaft.cell_to_air + self.shaft.cell_to_coolant)
+        losses[-3] = self.surroundings.nut_conductance
+        losses[-2:] = self.surroundings.bearing_conductance
+        return losses
 
     @functools.cached_property
     def outside(self) -> Numbers:
         """Temperature to which each gives its heat, K: the air's, and for cells with a coolant the mean of both."""
         ambient, coolant = self.surroundings.ambient, self.surroundings.coolant
-        found = np.full(self.size, float(ambient))
+        values = np.full(self.size, float(ambient))
         if coolant is not None and self.shaft.cell_to_coolant:
             both = self.shaft.cell_to_air + self.shaft.cell_to_coolant
-            found[:-3] = (self.shaft.cell_to_air * ambient + self.shaft.cell_to_coolant * coolant) / both
-        return found
+            values[:-3] = (self.shaft.cell_to_air * ambient + self.shaft.cell_to_coolant * coolant) / both
+        return values
 
     @functools.cached_property
     def conductances(self) -> Numbers:
         """Heat out of each for each kelvin of each, W/K: conduction, balls, bearings, and the outside."""
         n = self.shaft.cells
-        found = np.zeros((self.size, self.size))
-        found[:n, :n] = self.shaft.conduction
+        values = np.zeros((self.size, self.size))
+        values[:n, :n] = self.shaft.conduction
         to_shaft = np.zeros(self.size)
         to_shaft[:n], to_shaft[n] = self.spread, -1.0
-        found += self.ball_conductance * np.outer(to_shaft, to_shaft)
+        values += self.ball_conductance * np.outer(to_shaft, to_shaft)
         to_bearing = self.shaft.to_end(self.surroundings.shaft_to_bearing)
         for bearing, cell in ((n + 1, 0), (n + 2, n - 1)):
             ends = np.zeros(self.size)
             ends[bearing], ends[cell] = 1.0, -1.0
-            found += to_bearing * np.outer(ends, ends)
-        return found + np.diag(self.losses)
+            values += to_bearing * np.outer(ends, ends)
+        return values + np.diag(self.losses)
 
     @functools.cached_property
     def source(self) -> Numbers:
         """Shares of the temperatures in the friction power of the nut; they sum to one."""
-        found = np.zeros(self.size)
-        found[:-3] = self.surroundings.shaft_share * self.spread
-        found[-3] = 1 - self.surroundings.shaft_share
-        return found
+        source = np.zeros(self.size)
+        source[:-3] = self.surroundings.shaft_share * self.spread
+        source[-3] = 1 - self.surroundings.shaft_share
+        return source
 
     @functools.cached_property
     def constant(self) -> Numbers:
         """Heat that comes from outside and from the bearings, W."""
-        found = self.losses * self.outside
-        found[-2:] += self.bearing_power
-        return found
+        constant = self.losses * self.outside
+        constant[-2:] += self.bearing_power
+        return constant
 
     # -- what the friction depends on -------------------------------------------------------------
 
     @functools.cached_property
     def of_oil(self) -> Numbers:
         """Weights of the temperatures in that of the oil: half the nut's, half that of the shaft in it."""
-        found = np.zeros(self.size)
-        found[:-3], found[-3] = 0.5 * self.spread, 0.5
-        return found
+        values = np.zeros(self.size)
+        values[:-3], values[-3] = 0.5 * self.spread, 0.5
+        return values
 
     @functools.cached_property
     def of_excess(self) -> Numbers:
         """Weights of the temperatures in how much the shaft is warmer than the nut."""
-        found = np.zeros(self.size)
-        found[:-3], found[-3] = self.spread, -1.0
-        return found
+        values = np.zeros(self.size)
+        values[:-3], values[-3] = self.spread, -1.0
+        return values
 
     def preload(self, excess: Any) -> Any:
         """Preload where the shaft is so much warmer than the nut, N; zero where it is lost."""
@@ -185,14 +185,14 @@ class Network(ByValue):
 
     def power_at(self, oil: Numbers, preload: Numbers) -> Numbers:
         """Mean friction power of the nut at temperatures of the oil and preloads, W; NaN where it is not known."""
-        found = self.friction.at_all(oil, preload)
-        return found if self.friction_factor is None else found * self.friction_factor.at(oil)
+        result = self.friction.at_all(oil, preload)
+        return result if self.friction_factor is None else result * self.friction_factor.at(oil)
 
     def power(self, temperatures: Numbers) -> Power:
         """Mean friction power of the nut, W."""
         oil = float(self.of_oil @ temperatures)
-        found = self.friction.at(oil, float(self.preload(self.of_excess @ temperatures)))
-        return found if self.friction_factor is None else found * float(self.friction_factor.at(oil))
+        result = self.friction.at(oil, float(self.preload(self.of_excess @ temperatures)))
+        return result if self.friction_factor is None else result * float(self.friction_factor.at(oil))
 
     def powers(self, temperatures: Numbers) -> Numbers:
         """The same of many temperatures, W: one row each; NaN where friction is not known."""

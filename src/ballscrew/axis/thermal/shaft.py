@@ -95,13 +95,13 @@ class Shaft(ByValue):
     @functools.cached_property
     def conduction(self) -> Numbers:
         """Heat out of each cell to its neighbours for each kelvin, a matrix, W/K, whose columns sum to zero."""
-        found = np.zeros((self.cells, self.cells))
+        values = np.zeros((self.cells, self.cells))
         for i in range(self.cells - 1):
-            found[i, i] += self.to_neighbour
-            found[i + 1, i + 1] += self.to_neighbour
-            found[i, i + 1] -= self.to_neighbour
-            found[i + 1, i] -= self.to_neighbour
-        return found
+            values[i, i] += self.to_neighbour
+            values[i + 1, i + 1] += self.to_neighbour
+            values[i, i + 1] -= self.to_neighbour
+            values[i + 1, i] -= self.to_neighbour
+        return values
 
     def spread(self, places: Numbers, weights: Numbers, length: Length) -> Numbers:
         """Shares of the cells in a heat that is given over a length around each of some places, with their weights.

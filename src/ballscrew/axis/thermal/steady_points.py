@@ -78,7 +78,7 @@ def steady_points(
         raise InputError(Fault("lubricant", "has no temperature: its viscosity is the same for ever", "", remedy))
     count = points[OPERATION[0]].size
     names = [name for name in points if name not in OPERATION]
-    found = {name: np.full(count, np.nan) for name in _NUMBERS}
+    result = {name: np.full(count, np.nan) for name in _NUMBERS}
     exists, last = np.zeros(count, dtype=bool), None
     finished = 0
     for own, at in _designs(points, names, count):
@@ -86,7 +86,7 @@ def steady_points(
         still = at[points["screw_speed"][at] == 0]
         at_rest = {**dict.fromkeys(_NUMBERS, float(surroundings.ambient)), "growth": 0.0, "margin": 1.0}
         at_rest["preload"] = float(preload_of(design.screw, design.nut))
-        for name, values in found.items():
+        for name, values in result.items():
             values[still] = at_rest[name]
         exists[still] = True
         moving = at[points["screw_speed"][at] != 0]
@@ -97,12 +97,12 @@ def steady_points(
             for place, network in zip(some, networks, strict=False):
                 end, last = equilibrium(network), network
                 exists[place] = end.exists
-                for name, values in found.items():
+                for name, values in result.items():
                     values[place] = float(getattr(end, name))
             finished += some.size
             if done is not None:
                 done(finished, count)
-    return SteadyPoints(**found, exists=exists, network=last)
+    return SteadyPoints(**result, exists=exists, network=last)
 
 
 _NUMBERS = ("oil_temperature", "nut_temperature", "shaft_temperature", "preload", "growth", "margin")

@@ -81,31 +81,31 @@ def swept(
     plan = Plan.of(subject, outputs, varied)
     flat: dict[str, Any] = {**plan.fixed, **plan.points_at(np.arange(plan.total))}
     every = {name: np.broadcast_to(np.asarray(values, dtype=float), plan.total) for name, values in flat.items()}
-    found = steady_points(subject, every, surroundings, stroke=stroke, shaft_length=shaft_length, also=also, done=done)
-    dims, (results, warm) = tuple(plan.sizes), _results(plan, every, found)
-    numbers = {name: getattr(found, _OF.get(name, name)).reshape(plan.shape) for name in HEAT}
+    result = steady_points(subject, every, surroundings, stroke=stroke, shaft_length=shaft_length, also=also, done=done)
+    dims, (results, warm) = tuple(plan.sizes), _results(plan, every, result)
+    numbers = {name: getattr(result, _OF.get(name, name)).reshape(plan.shape) for name in HEAT}
     dataset = plan.dataset(results).assign(
         {name: (dims, values, attributes_of(HEAT[name])) for name, values in numbers.items()}
     )
     # of the oil as warm as it becomes, and not as it is given
     kept = {name: value for name, value in dataset.attrs.items() if name not in (*STARVED, "warnings")}
     dataset.attrs = kept | {name: warm[name] for name in (*STARVED, "warnings") if name in warm}
-    return dataset.assign({STEADY: (dims, found.exists.reshape(plan.shape))}), found
+    return dataset.assign({STEADY: (dims, result.exists.reshape(plan.shape))}), result
 
 
-def _results(plan: Plan, points: Mapping[str, Any], found: SteadyPoints) -> tuple[dict[str, Any], Mapping[str, Any]]:
+def _results(plan: Plan, points: Mapping[str, Any], result: SteadyPoints) -> tuple[dict[str, Any], Mapping[str, Any]]:
     """The outputs at the points that have a steady state, NaN and not valid at the others; attributes of the former."""
-    known = np.flatnonzero(found.exists)
+    known = np.flatnonzero(result.exists)
     if not known.size:
         remedy = "cool the shaft, turn slower, or preload less"
         raise InputError(
             Fault("surroundings", "no point has a steady state in the range of oil and preload", "", remedy)
         )
     subject = plan.subject
-    there: dict[str, Any] = {**points, "temperature": found.oil_temperature}
-    if np.any(found.preload[known] > 0):
+    there: dict[str, Any] = {**points, "temperature": result.oil_temperature}
+    if np.any(result.preload[known] > 0):
         preload = next((name for name in ("preload", "nut.preload") if name in points), "nut.preload")
-        there[preload] = found.preload
+        there[preload] = result.preload
     axes: dict[str, Any] = {name: xr.DataArray(values[known], dims="point") for name, values in there.items()}
     swept = sweep(subject.model, subject.screw, subject.lubricant, outputs=plan.outputs, **axes)
     results: dict[str, Any] = {}

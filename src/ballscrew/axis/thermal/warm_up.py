@@ -138,7 +138,7 @@ def _integrated(
     leaves.terminal = True  # pyright: ignore[reportFunctionMemberAccess]  (the solver reads it there)
     # the solver, and it alone, subtracts rows of its table that nothing was written to yet: any number may lie there
     with np.errstate(invalid="ignore", over="ignore"):
-        found = solve_ivp(
+        result = solve_ivp(
             rate,
             (float(instants[0]), float(instants[-1])),
             first,
@@ -149,14 +149,14 @@ def _integrated(
             atol=ATOL,
             events=leaves if works else None,
         )
-    if not found.success:
-        raise InputError(Fault("warm_up", "could not be integrated", str(found.message), "check the surroundings"))
-    if not works or not found.t_events[0].size:
-        return np.asarray(found.t), np.asarray(found.y), None
-    stopped, last = float(found.t_events[0][0]), np.asarray(found.y_events[0][0])
-    earlier = found.t < stopped
-    states = np.concatenate([found.y[:, earlier], last[:, None]], axis=1)
-    return np.append(found.t[earlier], stopped), states, stopped
+    if not result.success:
+        raise InputError(Fault("warm_up", "could not be integrated", str(result.message), "check the surroundings"))
+    if not works or not result.t_events[0].size:
+        return np.asarray(result.t), np.asarray(result.y), None
+    stopped, last = float(result.t_events[0][0]), np.asarray(result.y_events[0][0])
+    earlier = result.t < stopped
+    states = np.concatenate([result.y[:, earlier], last[:, None]], axis=1)
+    return np.append(result.t[earlier], stopped), states, stopped
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -333,8 +333,8 @@ def _ending(bracing: str, end: Equilibrium) -> str:
     return f"{bracing} {units.shown(end.preload, _PRELOAD)}" if end.exists else f"{bracing} no steady state"
 
 
-def _records(found: WarmUp) -> list[Record]:
-    end = found.equilibrium
+def _records(result: WarmUp) -> list[Record]:
+    end = result.equilibrium
     message = "no equilibrium within the range of oil and preload: thermal runaway, or too hot for the model"
     if end.exists:
         message = (
@@ -352,7 +352,7 @@ def _records(found: WarmUp) -> list[Record]:
             limit=0.0,
         )
     ]
-    both = {name: equilibrium(one) for name, one in found.network.by_bracing.items()}
+    both = {name: equilibrium(one) for name, one in result.network.by_bracing.items()}
     if both:
         endings = ", ".join(_ending(name, one) for name, one in both.items())
         message = (
@@ -360,13 +360,13 @@ def _records(found: WarmUp) -> list[Record]:
             f"braced: {endings}; give [surroundings] bracing"
         )
         verdicts.append(Record(text=message, id="warning.bracing", subject="preload", severity="warning", holds=False))
-    if found.stopped is not None:
-        time = units.shown(found.stopped, _HOURS, 3)
+    if result.stopped is not None:
+        time = units.shown(result.stopped, _HOURS, 3)
         message = f"stopped after {time}: beyond it oil or preload are outside what the model knows"
         verdicts.append(
-            Record(text=message, id="warning.stopped", subject="time", severity="error", value=found.stopped, unit="s")
+            Record(text=message, id="warning.stopped", subject="time", severity="error", value=result.stopped, unit="s")
         )
-    left = found.stretch_left
+    left = result.stretch_left
     if left is not None and np.min(left) < 0:
         stretch = units.shown(np.min(left), _STRETCH, 2)
         message = f"the stretch of the shaft is lost: {stretch} at the worst, and the shaft pushes"

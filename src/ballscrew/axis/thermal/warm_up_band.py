@@ -79,13 +79,13 @@ class WarmUpBand(ByValue):
 def uncertain_surroundings(network: Network, names: Sequence[str] = VARIED) -> Mapping[str, Distribution]:
     """The usual distributions of what is least known of the surroundings, about the values of a network."""
     known, quantities = default_uncertainties(), fields_of(Surroundings)
-    found: dict[str, Distribution] = {}
+    distributions: dict[str, Distribution] = {}
     for name in names:
         usual, value = known.get(PREFIX + name), _value(network, name)
         if usual is not None and value is not None:
             about = usual.about(value, quantities[name].info)
-            found |= {} if about is None else {PREFIX + name: about}
-    return found
+            distributions |= {} if about is None else {PREFIX + name: about}
+    return distributions
 
 
 def _value(network: Network, name: str) -> float | None:
@@ -226,15 +226,15 @@ def _outcomes(
 def _faults(duty: Duty, uncertain: Mapping[str, Distribution], joint: JointNormal | None) -> list[Fault]:
     of_air, of_friction = _parted(uncertain)
     known = [PREFIX + name for name in VARIED]
-    found = [
+    faults = [
         Fault(f"band.distributions.{name}", "has no band", "", nearest(name, known))
         for name in of_air
         if name not in known
     ]
     own = [name for name in of_friction if name in _OF_NETWORK and "preload" not in name]
     remedy = "leave it out: it is that of the duty, or follows from the heat"
-    found += [Fault(f"band.distributions.{name}", "has no band over a transient", "", remedy) for name in own]
-    return [*found, *faults_of_inputs(_subject(duty), of_friction, joint)]
+    faults += [Fault(f"band.distributions.{name}", "has no band over a transient", "", remedy) for name in own]
+    return [*faults, *faults_of_inputs(_subject(duty), of_friction, joint)]
 
 
 def sampled(
@@ -283,7 +283,7 @@ def _factors(central: WarmUp, values: Mapping[str, Numbers], samples: int) -> li
     weights = np.bincount(back.reshape(-1), weights=heated[heated > 0], minlength=states.shape[1])
     most = np.argsort(weights)[::-1][:_STATES]
     load, speed = states[:, most]
-    found: list[Numbers] = []
+    numbers: list[Numbers] = []
     for temperature, at in ((cold, 0), (warm, last)):
         screw, oil = driven.screw, driven.lubricant.at(temperature)
         if central.network.preload_set:
@@ -303,8 +303,8 @@ def _factors(central: WarmUp, values: Mapping[str, Numbers], samples: int) -> li
         torque = ready(axial_load=load, screw_speed=speed, **{name: drawn[:, None] for name, drawn in here.items()})
         usual = driven.model(screw, oil, axial_load=load, screw_speed=speed).screw_torque
         heats = np.atleast_2d(torque["screw_torque"]) @ weights[most]
-        found.append(heats / float(np.asarray(usual) @ weights[most]))
-    return [FrictionFactor((cold, warm), (float(f0), float(f1))) for f0, f1 in zip(*found, strict=True)]
+        numbers.append(heats / float(np.asarray(usual) @ weights[most]))
+    return [FrictionFactor((cold, warm), (float(f0), float(f1))) for f0, f1 in zip(*numbers, strict=True)]
 
 
 def _instants(time: Duration, cool_down: Duration, outputs: int) -> tuple[Numbers, Numbers]:
@@ -338,15 +338,15 @@ def _transients(
         every += [state.temperatures for state in states]
         spreads = np.concatenate([spreads, np.broadcast_to(spreads[-1], (rest.size, spreads.shape[1]))])
     ambient, shaft = start[:, 0], networks[0].shaft
-    found: dict[str, list[Numbers]] = {name: [] for name in OVER_TIME}
+    result: dict[str, list[Numbers]] = {name: [] for name in OVER_TIME}
     for temperatures, spread in zip(every, spreads, strict=True):
         preload, power = mean.power_of(temperatures, spread)
         of_shaft = np.mean(temperatures[:, :-3], axis=1)
         growth = shaft.expansion * shaft.length * (of_shaft - ambient)
         row = (temperatures[:, -3], of_shaft, growth, preload, power / speed if speed else np.nan * power)
         for name, values in zip(OVER_TIME, row, strict=True):
-            found[name].append(np.where(np.isfinite(power), values, np.nan))
-    return {name: np.array(values) for name, values in found.items()}
+            result[name].append(np.where(np.isfinite(power), values, np.nan))
+    return {name: np.array(values) for name, values in result.items()}
 
 
 def _pieces(instants: Numbers) -> Iterator[Piece]:
@@ -363,9 +363,9 @@ def _quantiles(values: Numbers, level: Ratio) -> tuple[Numbers, Numbers, Numbers
     """Low end, median and high end along the last axis, of what is a number."""
     shares = ((1 - level) / 2, 0.5, (1 + level) / 2)
     known = np.isfinite(values).any(axis=1)
-    found = np.full((3, values.shape[0]), np.nan)
-    found[:, known] = np.nanquantile(values[known], shares, axis=1)
-    return found[0], found[1], found[2]
+    result = np.full((3, values.shape[0]), np.nan)
+    result[:, known] = np.nanquantile(values[known], shares, axis=1)
+    return result[0], result[1], result[2]
 
 
 def _interval(values: Numbers, level: Ratio) -> Interval:

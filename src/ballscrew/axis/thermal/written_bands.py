@@ -14,7 +14,7 @@ from ballscrew.engine.uncertainty.uncertain_value import parse_uncertain
 
 def written_bands(table: Mapping[str, Any]) -> tuple[dict[str, Distribution], frozenset[str]]:
     """The distributions by name (``surroundings.ball_conductance``), and what is exact; of a table without faults."""
-    found: dict[str, Distribution] = {}
+    distributions: dict[str, Distribution] = {}
     exact: set[str] = set()
     quantities = fields_of(Surroundings)
     for name in VARIED:
@@ -25,5 +25,5 @@ def written_bands(table: Mapping[str, Any]) -> tuple[dict[str, Distribution], fr
         if written.distribution is None:
             exact.add(PREFIX + name)
         else:
-            found[PREFIX + name] = written.distribution
-    return found, frozenset(exact)
+            distributions[PREFIX + name] = written.distribution
+    return distributions, frozenset(exact)

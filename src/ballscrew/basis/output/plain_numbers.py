@@ -16,13 +16,13 @@ def plain(text: str) -> str:
     return _WRITTEN_BY_PROGRAMS.sub(_written_out, text)
 
 
-def _written_out(found: re.Match[str]) -> str:
-    digits, power = found["digits"], int(found["power"])
+def _written_out(match: re.Match[str]) -> str:
+    digits, power = match["digits"], int(match["power"])
     size = float(f"{digits}e{power}")
     if size and not _SMALLEST <= size < _LARGEST:
         times = "" if digits == "1" else f"{digits} × "
-        return f"{found['sign']}{times}10{str(power).translate(_SUPERSCRIPTS)}"
+        return f"{match['sign']}{times}10{str(power).translate(_SUPERSCRIPTS)}"
     if size >= MILLIONS:
-        return f"{found['sign']}{size / 1e6:.10g} million"
+        return f"{match['sign']}{size / 1e6:.10g} million"
     decimals = max(0, len(digits.partition(".")[2]) - power)
-    return f"{found['sign']}{size:.{decimals}f}"
+    return f"{match['sign']}{size:.{decimals}f}"

@@ -21,16 +21,16 @@ from ballscrew.basis.usual_ranges import unusual
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.physics.components.materials import STEEL_DENSITY, Lubricant
-from ballscrew.physics.components.mixed_friction import FRESH_BOUNDARY_FRICTION
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.oil_grades import has_additives
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations.shaft import shaft_inertia
 from ballscrew.physics.friction.calibrations import Calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
+from ballscrew.physics.laws.friction import FRESH_BOUNDARY_FRICTION
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.own_nut import RATED, odd_ratings, odd_root, odd_seals
@@ -205,8 +205,8 @@ class Case(Displayed):
         if unusual("screw", screw) or _too_many_balls(screw, self.row):
             return []
         ratings = odd_ratings(listed, ratings_of(rated_geometry_of(screw))) if {*RATED} & {*listed} else []
-        found = [*ratings, *odd_root(listed.get("root_diameter"), screw), *odd_seals(screw)]
-        return [*found, *_light(self.axis, screw)]
+        values = [*ratings, *odd_root(listed.get("root_diameter"), screw), *odd_seals(screw)]
+        return [*values, *_light(self.axis, screw)]
 
     @property
     def unlikely(self) -> tuple[str, ...]:

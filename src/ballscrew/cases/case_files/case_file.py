@@ -45,10 +45,10 @@ from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.ratings import rating_of
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.calibrations import calibration as named_calibration
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Installation
 
@@ -237,8 +237,8 @@ def _missing_sections(tables: Mapping[str, Any], needed: Sequence[str]) -> list[
 
 def _rating(screw: BallScrew, made: _MadeScrew) -> float | None:
     """The dynamic load rating of a screw, as listed or by its geometry; None where it has none."""
-    found = made.listed.get("dynamic_load_rating", float(rating_of(screw)))
-    return found if math.isfinite(found) else None
+    result = made.listed.get("dynamic_load_rating", float(rating_of(screw)))
+    return result if math.isfinite(result) else None
 
 
 def _meant(name: str, content: Any) -> str:

@@ -78,14 +78,14 @@ def toml(text: str) -> dict[str, Any]:
 
     Raises ``ValueError`` where it is no TOML, for tables nested too deeply, and for whole numbers beyond any float.
     """
-    if any(found["key"] for found in _TOKEN.finditer(text)):  # tomllib keeps each beginning of a key: 24 kB take 1.1 GB
+    if any(each["key"] for each in _TOKEN.finditer(text)):  # tomllib keeps each beginning of a key: 24 kB take 1.1 GB
         raise ValueError(f"a key has more than {DEEPEST} parts")
     return _checked(tomllib.loads(text))
 
 
 def comments_in(text: str) -> int:
     """The number of comments in a text of TOML."""
-    return sum(found["comment"] is not None for found in _TOKEN.finditer(text))
+    return sum(each["comment"] is not None for each in _TOKEN.finditer(text))
 
 
 def comments_at(path: Path) -> int:
@@ -133,12 +133,12 @@ def _no_number(name: str) -> NoReturn:
 
 def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """A table without repeated names, as TOML has it; JSON would keep the last one."""
-    found: dict[str, Any] = {}
+    table: dict[str, Any] = {}
     for name, value in pairs:
-        if name in found:
+        if name in table:
             raise ValueError(f"{name[:40]} {_TWICE}")
-        found[name] = value
-    return found
+        table[name] = value
+    return table
 
 
 def _checked(tables: dict[str, Any]) -> dict[str, Any]:
@@ -201,10 +201,10 @@ def _unquoted(error: str, text: str) -> str | None:
     """The remedy of a line whose value stands without quotes, as in ``lead = 10,0 mm``; None for any other line."""
     at = re.match(r"(?:Expected newline|Invalid value).*\(at line (\d+)", error)
     lines = text.split("\n")  # as tomllib counts them
-    found = _BARE_VALUE.fullmatch(lines[int(at[1]) - 1]) if at and int(at[1]) <= len(lines) else None
-    if found is None:
+    result = _BARE_VALUE.fullmatch(lines[int(at[1]) - 1]) if at and int(at[1]) <= len(lines) else None
+    if result is None:
         return None
-    key, value = found["key"], found["value"]
+    key, value = result["key"], result["value"]
     if value.casefold() in ("true", "false"):
         return f"write {key} = {value.casefold()}"
     return f'put the value in quotes: {key} = "{value}"'

@@ -63,8 +63,8 @@ def moved(sections: Sections, folder: Path, faults: list[Fault]) -> Moved:
 
 def needed(usual: Sequence[str], moves: bool, efficiency: float | None) -> Sequence[str]:
     """The sections that a case needs: one that moves no operating point, the rule of one efficiency no oil."""
-    found = [name for name in usual if not (name == "lubricant" and efficiency is not None)]
-    return [*(name for name in found if name != "operation"), *NEEDED] if moves else found
+    values = [name for name in usual if not (name == "lubricant" and efficiency is not None)]
+    return [*(name for name in values if name != "operation"), *NEEDED] if moves else values
 
 
 @overflow_as_input_error()
@@ -72,32 +72,32 @@ def misfits(moved: Moved, installation: Installation | None, root_diameter: floa
     """Faults of lengths that contradict each other: of the motion, the shaft between its bearings, and its bore."""
     surroundings = moved.surroundings or Surroundings()
     whole, free = surroundings.shaft_length, None if installation is None else installation.unsupported_length
-    quantity, found = fields_of(Surroundings)["stroke"], list[Fault]()
+    quantity, faults = fields_of(Surroundings)["stroke"], list[Fault]()
 
     def shown(length: float) -> str:
         return units.shown(length, quantity)
 
     if whole is not None and free is not None and free > whole:
         given, remedy = f"{shown(free)} of {shown(whole)}", "give at most that of the surroundings"
-        found.append(
+        faults.append(
             Fault("installation.unsupported_length", "is longer than the shaft between its bearings", given, remedy)
         )
     if root_diameter is not None and surroundings.bore >= root_diameter:
         given = f"{shown(surroundings.bore)} in a shaft of {shown(root_diameter)}"
-        found.append(Fault("surroundings.bore", "leaves no shaft", given, "give a smaller bore"))
+        faults.append(Fault("surroundings.bore", "leaves no shaft", given, "give a smaller bore"))
     if whole is None and free is None:
-        return found
+        return faults
     length = min(float(one) for one in (whole, free) if one is not None)
     if surroundings.stroke is not None and surroundings.stroke >= length:
         given = f"{shown(surroundings.stroke)} on {shown(length)}"
         remedy = "shorten the stroke, or lengthen the shaft"
-        found.append(Fault("surroundings.stroke", "does not fit between the bearings", given, remedy))
+        faults.append(Fault("surroundings.stroke", "does not fit between the bearings", given, remedy))
     if moved.motion is not None:
         try:
             moved.motion.states().places_on(length, surroundings.first_position)
         except InputError as error:
-            found += error.faults
-    return found
+            faults += error.faults
+    return faults
 
 
 @overflow_as_input_error()
@@ -180,20 +180,20 @@ def _motion(sections: Sections, folder: Path, faults: list[Fault]) -> Motion | N
 def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     """Faults of fields that another kind of motion has."""
     own = fields_of_motion(kind)
-    found: list[Fault] = []
+    faults: list[Fault] = []
     for name, value in table.items():
         if name != "kind" and name not in own:
             kinds = [other for other in (*MOTIONS, TRAJECTORY) if name in fields_of_motion(other)]
             remedy = f"leave it out, or write kind = {either(kinds)}"
-            found.append(Fault(f"motion.{name}", f'a motion of kind "{kind}" has none', reprlib.repr(value), remedy))
-    return found
+            faults.append(Fault(f"motion.{name}", f'a motion of kind "{kind}" has none', reprlib.repr(value), remedy))
+    return faults
 
 
 def _missing(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     """Faults of fields that a kind of motion needs."""
     if kind == TRAJECTORY:
         return [] if "file" in table else [Fault("motion.file", MISSING, "", 'add file = "run.csv"')]
-    known, found = fields_of(MOTIONS[kind]), list[Fault]()
+    known, missing = fields_of(MOTIONS[kind]), list[Fault]()
     for field in dataclasses.fields(MOTIONS[kind]):
         key = KEYS.get(field.name, field.name)
         if field.default is dataclasses.MISSING and key not in table:
@@ -201,20 +201,20 @@ def _missing(kind: str, table: Mapping[str, Any]) -> list[Fault]:
             remedy = f"add tables [[motion.{key}]]"
             if quantity is not None:
                 remedy = f'add {key} = "… {quantity.shown_in}"'
-            found.append(Fault(f"motion.{key}", MISSING, "", remedy))
-    return found
+            missing.append(Fault(f"motion.{key}", MISSING, "", remedy))
+    return missing
 
 
 def _segments(tables: list[Any], faults: list[Fault]) -> tuple[Segment, ...]:
-    found: list[Segment] = []
+    segments: list[Segment] = []
     for number, table in enumerate(tables, start=1):
         where, before = f"motion.segment {number}", len(faults)
         values: dict[str, Any] = read_table(where, duty_sections()["segment"], table, faults)
         made = None
         if len(faults) == before:
             made = _made(where, functools.partial(Segment, **values), faults)
-        found += [] if made is None else [made]
-    return tuple(found)
+        segments += [] if made is None else [made]
+    return tuple(segments)
 
 
 def _made(where: str, make: Callable[[], Any], faults: list[Fault]) -> Any:
@@ -246,7 +246,7 @@ def _surroundings(sections: Sections, faults: list[Fault]) -> Surroundings | Non
 
 
 def _curve(points: list[Any], faults: list[Fault]) -> tuple[tuple[float, float], ...]:
-    found: list[tuple[float, float]] = []
+    pairs: list[tuple[float, float]] = []
     for number, point in enumerate(points, start=1):
         part = f"point {number}"
         if not isinstance(point, list) or len(point) != len(POINT):
@@ -259,37 +259,37 @@ def _curve(points: list[Any], faults: list[Fault]) -> tuple[tuple[float, float],
         faults += wrong
         if not wrong:
             speed, torque = (float(number) for number in numbers if not isinstance(number, Fault))
-            found.append((speed, torque))
-    return tuple(found)
+            pairs.append((speed, torque))
+    return tuple(pairs)
 
 
 def inputs(
     axis: Axis | None, motion: Motion | None, motor: Motor | None, surroundings: Surroundings | None
 ) -> dict[str, Any]:
     """Axis, motion, motor and surroundings in SI, by section, as far as a case has them."""
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     if axis is not None:
-        found["axis"] = {**_numbers(axis), "brake_holds": axis.brake_holds}
+        values["axis"] = {**_numbers(axis), "brake_holds": axis.brake_holds}
     if motion is not None:
         kind = next((name for name, cls in MOTIONS.items() if type(motion) is cls), TRAJECTORY)
-        found["motion"] = {"kind": kind, **_of_motion(motion)}
+        values["motion"] = {"kind": kind, **_of_motion(motion)}
     if motor is not None:
-        found["motor"] = {**_numbers(motor), "curve": [list(point) for point in motor.curve]}
+        values["motor"] = {**_numbers(motor), "curve": [list(point) for point in motor.curve]}
     if surroundings is not None:
         bracing = {"bracing": surroundings.bracing} if surroundings.bracing else {}
-        found["surroundings"] = {**_numbers(surroundings), **bracing}
-    return found
+        values["surroundings"] = {**_numbers(surroundings), **bracing}
+    return values
 
 
 def _of_motion(motion: Any) -> dict[str, Any]:
     if isinstance(motion, Trajectory):
         return {"file": motion.source, "samples": int(np.size(motion.time))}
-    found = _numbers(motion)
+    numbers = _numbers(motion)
     if hasattr(motion, "returns"):
-        found["return"] = motion.returns
+        numbers["return"] = motion.returns
     if hasattr(motion, "segments"):
-        found["segment"] = [{**({"name": s.name} if s.name else {}), **_numbers(s)} for s in motion.segments]
-    return found
+        numbers["segment"] = [{**({"name": s.name} if s.name else {}), **_numbers(s)} for s in motion.segments]
+    return numbers
 
 
 def _numbers(part: Any) -> dict[str, Any]:

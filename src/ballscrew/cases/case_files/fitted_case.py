@@ -34,35 +34,35 @@ CONSTANT_INPUT = f"losses.{CONSTANT_LOSS}.{CONSTANT_TORQUE.name}"
 _DIGITS = 12
 
 
-def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, found: CalibratedModel) -> None:
+def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, calibrated_model: CalibratedModel) -> None:
     """Write the case that ``tables`` from a file in ``folder`` describe, with the fitted numbers in place."""
-    text = text_of(moved(tables, folder, to.parent), case, found)
+    text = text_of(moved(tables, folder, to.parent), case, calibrated_model)
     with atomic_write("--to", to) as path:
         path.write_text(text, encoding="utf-8")
 
 
-def text_of(tables: Mapping[str, Any], case: Case, found: CalibratedModel) -> str:
+def text_of(tables: Mapping[str, Any], case: Case, calibrated_model: CalibratedModel) -> str:
     """The case that ``tables`` describe as TOML, with the fitted numbers in place and ``[calibration]``."""
     import tomlkit
 
-    made = {**with_numbers(tables, case, found), "calibration": calibration_of(case, found)}
+    made = {**with_numbers(tables, case, calibrated_model), "calibration": calibration_of(case, calibrated_model)}
     return f"# {_HEAD}\n\n{tomlkit.dumps(_plain(made))}"
 
 
-def with_numbers(tables: Mapping[str, Any], case: Case, found: CalibratedModel) -> dict[str, Any]:
+def with_numbers(tables: Mapping[str, Any], case: Case, calibrated_model: CalibratedModel) -> dict[str, Any]:
     """The tables of a case with the fitted numbers in place."""
     made = _copied(tables)
     made["model"] = {**written_out(made.get("model", {}), case), "name": case.model.name}
-    known = found.subject.inputs
+    known = calibrated_model.subject.inputs
     settings: list[str] = []
-    for full, estimate in zip(found.response.names, found.estimates.values(), strict=False):
+    for full, estimate in zip(calibrated_model.response.names, calibrated_model.estimates.values(), strict=False):
         settings.append(f'{_place(known, full)}="{_written(estimate)}"')
         if full == "viscosity" and case.oil:
             # one of the two: what the grade or the data sheet gave is written out
             made["lubricant"] = {k: v for k, v in made["lubricant"].items() if k not in OF_NAMED_OIL}
             for name, quantity in fields_of(Lubricant).items():
                 made["lubricant"].setdefault(name, _number(getattr(case.lubricant, name), quantity))
-    constant = found.estimates.get(CONSTANT_TORQUE.name)
+    constant = calibrated_model.estimates.get(CONSTANT_TORQUE.name)
     if constant is not None:
         made.setdefault("losses", {})[CONSTANT_LOSS] = {"law": "known", CONSTANT_TORQUE.name: _written(constant)}
     return case_file.override(made, settings)
@@ -87,30 +87,33 @@ def _number(value: float, quantity: Quantity) -> str:
     return number if quantity.unit == "1" else f"{number} {quantity.shown_in}"
 
 
-def provenance_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
+def provenance_of(case: Case, calibrated_model: CalibratedModel) -> dict[str, Any]:
     """Origin of a calibration: version, model, log with its hash, settings, sources."""
-    name, digest = found.rows.log.source or ("", "")
-    of_log = {"log": name, "sha256": digest, "settings": found.settings}
+    name, digest = calibrated_model.rows.log.source or ("", "")
+    of_log = {"log": name, "sha256": digest, "settings": calibrated_model.settings}
     return {**of_case(case), **of_log, "references": references(case)}
 
 
-def calibration_of(case: Case, found: CalibratedModel) -> dict[str, Any]:
+def calibration_of(case: Case, calibrated_model: CalibratedModel) -> dict[str, Any]:
     """Values of ``[calibration]``, in SI."""
-    estimates = list(found.estimates.values())
+    estimates = list(calibrated_model.estimates.values())
     told = [estimate.identified for estimate in estimates]
-    full = [*found.response.names, *([CONSTANT_INPUT] if CONSTANT_TORQUE.name in found.estimates else [])]
+    full = [
+        *calibrated_model.response.names,
+        *([CONSTANT_INPUT] if CONSTANT_TORQUE.name in calibrated_model.estimates else []),
+    ]
     names = [name for name, known in zip(full, told, strict=True) if known]
-    covariance = found.uncertainty.covariance[: len(told), : len(told)][np.ix_(told, told)]
+    covariance = calibrated_model.uncertainty.covariance[: len(told), : len(told)][np.ix_(told, told)]
     return {
-        **provenance_of(case, found),
+        **provenance_of(case, calibrated_model),
         "numbers": names,
         "values": [estimate.value for estimate in estimates if estimate.identified],
         "covariance": covariance.tolist(),
         "not_identified": [n for n, known in zip(full, told, strict=True) if not known],
-        "residual_rms": f"{found.residual_rms:.6g} N m",
-        **({} if found.holdout_rms is None else {"holdout_rms": f"{found.holdout_rms:.6g} N m"}),
-        "verdicts": list(found.verdicts),
-        "warnings": list(found.warnings),
+        "residual_rms": f"{calibrated_model.residual_rms:.6g} N m",
+        **({} if calibrated_model.holdout_rms is None else {"holdout_rms": f"{calibrated_model.holdout_rms:.6g} N m"}),
+        "verdicts": list(calibrated_model.verdicts),
+        "warnings": list(calibrated_model.warnings),
     }
 
 

@@ -63,9 +63,9 @@ def _inputs_of_nut(case: Case, nut: Nut) -> dict[str, Any]:
 
 def _losses(case: Case, nut: Nut) -> dict[str, Any]:
     """The laws of the losses, of seals with the source of their torque where the row of the screw has one."""
-    found = {slot: _law(slot, law) for slot, law in nut.losses.items()}
-    seals, source = found.get("seals"), seal_torque_source(case.row, nut)
-    return {**found, "seals": {**seals, "source": source}} if source and isinstance(seals, dict) else found
+    values = {slot: _law(slot, law) for slot, law in nut.losses.items()}
+    seals, source = values.get("seals"), seal_torque_source(case.row, nut)
+    return {**values, "seals": {**seals, "source": source}} if source and isinstance(seals, dict) else values
 
 
 def _mounting(mounted: Installation) -> dict[str, Any]:

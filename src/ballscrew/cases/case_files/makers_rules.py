@@ -62,5 +62,5 @@ def by_rules(case: Case) -> Sequence[OfRule]:
     if not subject.preload:
         return ()
     own = rule_of(make_of(case))
-    found = [OfRule(RULES[name], torque, RULES[name] is own) for name, torque in drags(subject).items()]
-    return sorted(found, key=lambda one: not one.is_own)
+    of_rules = [OfRule(RULES[name], torque, RULES[name] is own) for name, torque in drags(subject).items()]
+    return sorted(of_rules, key=lambda one: not one.is_own)

@@ -42,16 +42,16 @@ def of_make(tables: Mapping[str, Any], row: CatalogueRow | None, faults: list[Fa
     if not isinstance(table, dict) or table.get("calibration") != BY_MAKE:
         return tables
     make = "" if row is None else row.make
-    found = calibration_of_make(make)
-    if found is None and faults:
+    result = calibration_of_make(make)
+    if result is None and faults:
         return _without_calibration(tables)  # of a screw that is at fault itself
-    if found is None:
+    if result is None:
         known = either(dict.fromkeys(one.maker for one in calibrations().values()))
         remedy = f"take a row of {known}, or the name of a calibration"
         problem = "there is none of this make" if make else "the make of this nut is not given"
         faults.append(Fault("model.calibration", problem, make, remedy))
         return _without_calibration(tables)
-    return {**tables, "model": {**table, "calibration": found.name}}
+    return {**tables, "model": {**table, "calibration": result.name}}
 
 
 def _without_calibration(tables: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -64,12 +64,12 @@ def calibrated_by_table(model: FrictionModel, table: Mapping[str, Any]) -> Frict
     Raises :class:`~ballscrew.basis.errors.InputError` for an unknown name, and where the table sets what it sets.
     """
     friction: Any = table.get("friction")
-    name, found = table["calibration"], calibration(table["calibration"])
+    name, result = table["calibration"], calibration(table["calibration"])
     twice = [slot for slot in _CHAIN if slot in table]
-    if _NUMBER in found.fitted and isinstance(friction, dict) and _NUMBER in friction:
+    if _NUMBER in result.fitted and isinstance(friction, dict) and _NUMBER in friction:
         twice.append(f"friction.{_NUMBER}")
     raise_if_any([Fault(f"model.{field}", "is set by the calibration", name, "leave one out") for field in twice])
-    return calibrated(model, found)
+    return calibrated(model, result)
 
 
 def written_out(table: Mapping[str, Any], case: Case) -> dict[str, Any]:

@@ -17,8 +17,8 @@ from ballscrew.cases.schema.sections import Sections
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS, Share
 from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
-from ballscrew.physics.components.nut_losses import ParasiticLaw
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
+from ballscrew.physics.laws.nut_losses import ParasiticLaw
 from ballscrew.physics.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
 from ballscrew.physics.sizing.checks import groove_bottom
 from ballscrew.physics.sizing.installation import Installation, Limits
@@ -44,8 +44,8 @@ def row_of(
     if not isinstance(name, str) or not isinstance(file, str | None):
         return None
     try:
-        found = catalogue.load(None if file is None else folder / file)[0] if rows is None else rows
-        return catalogue.named(found, name, "screw.catalogue", file)
+        result = catalogue.load(None if file is None else folder / file)[0] if rows is None else rows
+        return catalogue.named(result, name, "screw.catalogue", file)
     except InputError as error:
         faults += error.faults
         return None

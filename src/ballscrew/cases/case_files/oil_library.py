@@ -103,19 +103,19 @@ def _parsed(text: str, file: str) -> Oils:
     faults = [Fault(f"{file}: {name}", "unknown section", "", example) for name in tables if name != "oils"]
     if not isinstance(rows, dict) or not rows:
         raise InputError(*faults, Fault(file, "has no oils", "", example))
-    found: dict[str, DataSheet] = {}
+    data_sheets: dict[str, DataSheet] = {}
     for name, row in rows.items():
         own: list[Fault] = []
         values = read_table("oils", _model(), row, own)
         try:
             if not own:
-                found[name] = DataSheet(**{"source": file, **values}, name=name)
+                data_sheets[name] = DataSheet(**{"source": file, **values}, name=name)
         except InputError as error:
             own += error.faults
         faults += [_of_row(fault, f'{file}: oils."{name}"') for fault in own]
     if faults:
         raise InputError(*faults)
-    return Oils(found, file)
+    return Oils(data_sheets, file)
 
 
 def _of_row(fault: Fault, where: str) -> Fault:
@@ -139,7 +139,7 @@ def _consistency(sheet: DataSheet) -> str:
 
 def chosen(known: Oils, words: str) -> list[DataSheet]:
     """The oils that have all these words in name, source, base oil, thickener or class of consistency (NLGI 2)."""
-    found = [
+    data_sheets = [
         sheet
         for sheet in known.values()
         if all(
@@ -147,6 +147,6 @@ def chosen(known: Oils, words: str) -> list[DataSheet]:
             for word in re.sub(r"\bnlgi[\s_-]*(?=\d)", "nlgi-", words.casefold()).split()
         )
     ]
-    if not found:
+    if not data_sheets:
         raise InputError(Fault(known.file, "no oil has these words", words, "leave them out to see all oils"))
-    return found
+    return data_sheets

@@ -48,13 +48,13 @@ def opened(path: Path) -> OpenedFile:
     Tables that no case has are kept aside. Values that JSON has not are kept as text: dates, what is not finite, and
     whole numbers beyond 2^53.
     """
-    found = _opened(path)
-    notes = list(found.notes)
+    result = _opened(path)
+    notes = list(result.notes)
     designs = [
         Design(one.name, *(case_text.for_json("", tables, notes) for tables in (one.tables, one.aside)))
-        for one in found.designs
+        for one in result.designs
     ]
-    return dataclasses.replace(found, designs=designs, notes=notes)
+    return dataclasses.replace(result, designs=designs, notes=notes)
 
 
 def is_table(path: Path) -> bool:
@@ -95,10 +95,10 @@ def _screws(path: Path) -> catalogue.Screws:
 def _is_log(path: Path) -> bool:
     """Test whether a table has a torque, and what belongs to it."""
     try:
-        found = {column.taken_for for column in preview(path).columns}
+        values = {column.taken_for for column in preview(path).columns}
     except InputError:
         return False
-    return bool(found & _TORQUES) and bool(found & _CONDITIONS)
+    return bool(values & _TORQUES) and bool(values & _CONDITIONS)
 
 
 def _kept(design: Design) -> Design:

@@ -51,15 +51,15 @@ def designs_of(tables: Mapping[str, Any], where: str) -> list[Design]:
     if len(listed) > MOST_DESIGNS:
         faults.append(Fault("designs", "too many", str(len(listed)), f"{MOST_DESIGNS} at most in a file"))
         listed = []
-    found = [_design(place, table, faults) for place, table in enumerate(listed, start=1)]
-    names = [design.name for design in found]
+    designs = [_design(place, table, faults) for place, table in enumerate(listed, start=1)]
+    names = [design.name for design in designs]
     faults += [
         Fault(f"designs.{name}", "is the name of two designs", "", "name both apart")
         for name in dict.fromkeys(names)
         if names.count(name) > 1
     ]
     raise_if_any(faults)
-    return found
+    return designs
 
 
 def _design(place: int, table: Any, faults: list[Fault]) -> Design:
@@ -103,23 +103,23 @@ def read(path: str | Path) -> list[Design]:
         if name:
             raise InputError(Fault(str(file), "is a case file, no project", name, f'leave out "#{name}"'))
         return [Design(file.stem, tables)]
-    found = designs_of(tables, str(file))
+    designs = designs_of(tables, str(file))
     if not name:
-        return found
-    named = [design for design in found if design.name == name]
+        return designs
+    named = [design for design in designs if design.name == name]
     if not named:
-        raise InputError(Fault(str(file), "has no such design", name, nearest(name, [one.name for one in found])))
+        raise InputError(Fault(str(file), "has no such design", name, nearest(name, [one.name for one in designs])))
     return named
 
 
 def design_at(path: str | Path) -> dict[str, Any]:
     """The tables of a case file, or of the one design that a path names. Raises ``InputError``."""
-    found = read(path)
-    if len(found) > 1:
-        names = ", ".join(design.name for design in found)
-        remedy = f'name one: "{path}#{found[0].name}"; ballscrew compare takes them all'
+    result = read(path)
+    if len(result) > 1:
+        names = ", ".join(design.name for design in result)
+        remedy = f'name one: "{path}#{result[0].name}"; ballscrew compare takes them all'
         raise InputError(Fault(str(path), "is a project of several designs", names, remedy))
-    return dict(found[0].tables)
+    return dict(result[0].tables)
 
 
 def file_of(path: str | Path) -> Path:

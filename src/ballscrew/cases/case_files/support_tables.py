@@ -48,11 +48,11 @@ def bearings(
     if len(faults) > before:
         return {}
     share = 0.5 if "second_fixed" in tables else 1.0
-    found = {
+    result = {
         place: _bearing(place, dict(values), 0.0 if place == "floating" else share, folder, lubricant, faults)
         for place, values in tables.items()
     }
-    return {place: bearing for place, bearing in found.items() if bearing is not None}
+    return {place: bearing for place, bearing in result.items() if bearing is not None}
 
 
 def _contradictions(sections: Sections, tables: Mapping[str, Any], mounted: Installation | None) -> list[Fault]:
@@ -119,9 +119,9 @@ def _bearing(
     )
 
 
-def mounted_on(mounted: Installation | None, found: Mapping[str, MountedBearing]) -> Installation | None:
+def mounted_on(mounted: Installation | None, mounted_bearings: Mapping[str, MountedBearing]) -> Installation | None:
     """The installation with the rigidity that the maker of its fixed bearing prints, unless it has its own."""
-    rigidity = found["fixed"].rigidity if "fixed" in found else None
+    rigidity = mounted_bearings["fixed"].rigidity if "fixed" in mounted_bearings else None
     if mounted is None or mounted.bearing_rigidity is not None or rigidity is None:
         return mounted
     return dataclasses.replace(mounted, bearing_rigidity=rigidity)
@@ -229,22 +229,22 @@ def _made(where: str, make: Callable[[], Any], faults: list[Fault]) -> Any:
 def distributions(sections: Sections) -> Mapping[str, Distribution]:
     """The distributions of numbers of bearings and guides: ``bearings.fixed.torque``, ``guides.seal_force``."""
     places = {f"bearings.{place}": table for place, table in sections.tables.get("bearings", {}).items()}
-    known, found = {**fields_of_laws(GUIDE_LAWS), **fields_of_laws(BEARING_LAWS)}, dict[str, Distribution]()
+    known, result = {**fields_of_laws(GUIDE_LAWS), **fields_of_laws(BEARING_LAWS)}, dict[str, Distribution]()
     for where, table in {**places, "guides": sections.tables.get("guides", {})}.items():
         for name in UNCERTAIN:
             written = parse_uncertain(table.get(name), known[name])
             if isinstance(written, UncertainValue) and written.distribution is not None:
-                found[f"{where}.{name}"] = written.distribution
-    return found
+                result[f"{where}.{name}"] = written.distribution
+    return result
 
 
-def inputs(found: Mapping[str, MountedBearing], axis: Axis | None) -> dict[str, Any]:
+def inputs(mounted_bearings: Mapping[str, MountedBearing], axis: Axis | None) -> dict[str, Any]:
     """Bearings and guides in SI, by section, as far as a case has them."""
     parts: dict[str, Any] = {}
-    if found:
+    if mounted_bearings:
         parts["bearings"] = {
             place: {**numbers_of(bearing.element, BEARING_LAWS), **numbers_of(bearing)}
-            for place, bearing in found.items()
+            for place, bearing in mounted_bearings.items()
         }
     if axis is not None and axis.guides is not None:
         parts["guides"] = numbers_of(axis.guides, GUIDE_LAWS)

@@ -60,22 +60,22 @@ def all_of(case: Case, only_given: bool = False) -> Mapping[str, Uncertain]:
     Parameters of a named calibration have its standard errors; :func:`joint_of` has their correlation.
     """
     known = inputs_of(case.model, case.screw, case.lubricant)
-    found = {
+    uncertain = {
         name: Uncertain(distribution, GIVEN, True, describe_distribution(distribution, known[name][1]))
         for name, distribution in case.uncertain.items()
     }
     if case.calibration is not None:
-        found |= {name: u for name, u in _of_calibration(case.calibration, known).items() if name not in case.exact}
+        uncertain |= {name: u for name, u in _of_calibration(case.calibration, known).items() if name not in case.exact}
     if not only_given:
-        usual = default_distributions(case.model, case.screw, case.lubricant, given=found, exact=case.exact)
+        usual = default_distributions(case.model, case.screw, case.lubricant, given=uncertain, exact=case.exact)
         # a fit holds for what it held: not for the temperature of the day, and not for what it could not tell
         open_after_fit = {TEMPERATURE.name, *case.fit.get("not_identified", ())}
         for name, (distribution, why) in usual.items():
             if case.fit and name not in open_after_fit:
                 continue
             description = describe_distribution(distribution, known[name][1])
-            found[name] = Uncertain(distribution, why.source, False, description, why.reason)
-    return found
+            uncertain[name] = Uncertain(distribution, why.source, False, description, why.reason)
+    return uncertain
 
 
 def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
@@ -89,23 +89,23 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
 
     if case.fit:
         faults: list[Fault] = []
-        found = _joint_of_fit(case.fit, inputs_of(case.model, case.screw, case.lubricant), faults)
+        joint = _joint_of_fit(case.fit, inputs_of(case.model, case.screw, case.lubricant), faults)
         raise_if_any(faults)
     elif case.calibration is not None:
         parameters = case.calibration.parameters
         mean = np.array([getattr(case.calibration, field) for field in parameters])
-        found = JointNormal(tuple(parameters.values()), mean, np.array(case.calibration.covariance))
+        joint = JointNormal(tuple(parameters.values()), mean, np.array(case.calibration.covariance))
     else:
-        found = None
-    if found is None:
+        joint = None
+    if joint is None:
         return None
     kept = [
         i
-        for i, name in enumerate(found.names)
-        if name in inputs and math.isclose(found.mean[i], _central(inputs[name].distribution), rel_tol=_SAME)
+        for i, name in enumerate(joint.names)
+        if name in inputs and math.isclose(joint.mean[i], _central(inputs[name].distribution), rel_tol=_SAME)
     ]
-    names = tuple(found.names[i] for i in kept)
-    return JointNormal(names, found.mean[kept], found.covariance[np.ix_(kept, kept)]) if kept else None
+    names = tuple(joint.names[i] for i in kept)
+    return JointNormal(names, joint.mean[kept], joint.covariance[np.ix_(kept, kept)]) if kept else None
 
 
 def _joint_of_fit(table: Any, known: Mapping[str, Any], faults: list[Fault]) -> JointNormal | None:
@@ -143,14 +143,14 @@ def quantity_of(case: Case, name: str) -> Quantity:
 
 def _of_calibration(calibration: Calibration, known: Mapping[str, Any]) -> dict[str, Uncertain]:
     """The parameters of a calibration with their standard errors."""
-    found: dict[str, Uncertain] = {}
+    uncertain: dict[str, Uncertain] = {}
     for (field, name), error in zip(calibration.parameters.items(), calibration.standard_errors, strict=True):
         distribution = Normal(getattr(calibration, field), error)
         reason = "as the fit left it"
-        found[name] = Uncertain(
+        uncertain[name] = Uncertain(
             distribution, calibration.name, True, describe_distribution(distribution, known[name][1]), reason
         )
-    return found
+    return uncertain
 
 
 def parse_distributions(
@@ -160,7 +160,7 @@ def parse_distributions(
 
     The tables must be those of a case without faults.
     """
-    found: dict[str, Distribution] = {}
+    distributions: dict[str, Distribution] = {}
     exact: set[str] = set()
     for name, (section, quantity) in inputs_of(model, screw, lubricant).items():
         if name.startswith("nut."):
@@ -171,8 +171,8 @@ def parse_distributions(
             if written.distribution is None:
                 exact.add(name)
             else:
-                found[name] = written.distribution
-    return found, frozenset(exact)
+                distributions[name] = written.distribution
+    return distributions, frozenset(exact)
 
 
 def path_of(case: Case, name: str) -> str:

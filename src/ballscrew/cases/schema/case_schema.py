@@ -30,12 +30,12 @@ from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
 from ballscrew.physics.components.nut import Bodies, DoubleNut, Scatter
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.components.outside_laws import name_of as outside_name
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
 from ballscrew.physics.friction.calibrations import BY_MAKE, calibrations
 from ballscrew.physics.friction.law_names import LAWS as LAWS
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel, presets
+from ballscrew.physics.laws.outside import name_of as outside_name
 from ballscrew.physics.sizing.installation import Installation, Limits
 
 MODELS = presets()
@@ -89,12 +89,11 @@ def _slot(slot: str) -> tuple[Any, Any]:
         {
             "law": {"const": name},
             **{
-                field: json_of(q, defaults_of(_SLOTS[slot][name]).get(field), slot in LAWS)
-                for field, q in found.items()
+                field: json_of(q, defaults_of(_SLOTS[slot][name]).get(field), slot in LAWS) for field, q in each.items()
             },
         }
         for name in _SLOTS[slot]
-        if (found := coefficients_of(slot, name))
+        if (each := coefficients_of(slot, name))
     ]
     schema = {
         "description": f"law of {_place(slot)}: its name, or a table with coefficients",
@@ -332,14 +331,14 @@ def _from_outside(
     """A law from outside, with the coefficients of a table where it is a dataclass."""
     before = len(faults)
     try:
-        found = law_from_outside(place, written, folder)
-        plain = with_plain_numbers(where, found, table, faults)
-        if len(faults) > before or not isinstance(found, type):
-            return found
-        known = coefficients(found)
-        section = section_of(found.__name__, known, found, required=False, uncertain=known)
+        law = law_from_outside(place, written, folder)
+        plain = with_plain_numbers(where, law, table, faults)
+        if len(faults) > before or not isinstance(law, type):
+            return law
+        known = coefficients(law)
+        section = section_of(law.__name__, known, law, required=False, uncertain=known)
         values = read_table(where, section, {n: v for n, v in table.items() if n in known}, faults)
-        return found if len(faults) > before else found(**values, **plain)
+        return law if len(faults) > before else law(**values, **plain)
     except InputError as error:
         faults += error.faults
         return None
@@ -371,12 +370,12 @@ def read_table(where: str, model: type[BaseModel], table: Any, faults: list[Faul
     try:
         return model.model_validate(table).model_dump(exclude_unset=True)
     except ValidationError as error:
-        found = [_fault(where, model, dict(problem)) for problem in error.errors(include_url=False)]
+        values = [_fault(where, model, dict(problem)) for problem in error.errors(include_url=False)]
     # a misspelt key is one fault, not also a missing one
-    meant = {f"{fault.where.rpartition('.')[0]}.{fault.meant}" for fault in found if fault.meant}
+    meant = {f"{fault.where.rpartition('.')[0]}.{fault.meant}" for fault in values if fault.meant}
     if "screw.catalogue" in meant:
         meant |= {f"screw.{name}" for name in fields_of(BallScrew)}
-    faults += [fault for fault in found if not (fault.problem == MISSING and fault.where in meant)]
+    faults += [fault for fault in values if not (fault.problem == MISSING and fault.where in meant)]
     return {}
 
 

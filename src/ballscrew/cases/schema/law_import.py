@@ -37,20 +37,20 @@ def law_from_outside(where: str, written: str, folder: Path | None) -> Any:
     if folder is None:
         raise InputError(Fault(where, "is code from outside, which is not allowed", written, NOT_ALLOWED))
     module_name, _, name = written.partition(":")
-    found: Any = _module(where, written, module_name, folder)
+    result: Any = _module(where, written, module_name, folder)
     for part in name.split("."):
-        if not hasattr(found, part):
-            laws = [n for n, law in vars(found).items() if callable(law) and law.__module__ == module_name]
+        if not hasattr(result, part):
+            laws = [n for n, law in vars(result).items() if callable(law) and law.__module__ == module_name]
             raise InputError(Fault(where, f"{module_name} has no {name}", written, nearest(name, laws)))
-        found = getattr(found, part)
-    if isinstance(found, type):
-        if not dataclasses.is_dataclass(found) or not callable(getattr(found, "__call__", None)):  # noqa: B004  (the class, not the instance)
+        result = getattr(result, part)
+    if isinstance(result, type):
+        if not dataclasses.is_dataclass(result) or not callable(getattr(result, "__call__", None)):  # noqa: B004  (the class, not the instance)
             problem, remedy = "is a class, but no law", "make it a frozen dataclass with __call__, or name a function"
             raise InputError(Fault(where, problem, written, remedy))
-    elif not callable(found):
+    elif not callable(result):
         remedy = "name a function, or a frozen dataclass with __call__"
         raise InputError(Fault(where, "is no law: it cannot be called", written, remedy))
-    return found
+    return result
 
 
 def with_plain_numbers(where: str, kind: Any, table: Mapping[str, Any], faults: list[Fault]) -> dict[str, Any]:

@@ -17,8 +17,8 @@ from ballscrew.cases.screw_tables.nut_kinds import LISTED, NUTS, Share, kind_in
 from ballscrew.files.tables import column_names
 from ballscrew.files.tables.headings import Column
 from ballscrew.files.tables.rows import Row, made, read
-from ballscrew.physics.components.nut_losses import SEAL_MAKER, SEAL_SOURCE, Seals
 from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.laws.nut_losses import SEAL_MAKER, SEAL_SOURCE, Seals
 from ballscrew.physics.sizing.catalogue import (
     CONFORMITY_DOUBT,
     TURNS_WITHOUT_LOAD,

@@ -133,17 +133,17 @@ class TorqueCard:
     @property
     def notes(self) -> list[str]:
         """What keeps the card from being compared as it is, and what is not stated."""
-        found: list[str] = []
+        notes: list[str] = []
         if self.synthetic:
-            found.append("synthetic: made by a model, says nothing of a screw")
+            notes.append("synthetic: made by a model, says nothing of a screw")
         if self.remarks["wipers"] and not self.case.screw.nut.losses:
-            found.append("wipers were fitted, and [losses] has no torque of them: the model leaves them out")
+            notes.append("wipers were fitted, and [losses] has no torque of them: the model leaves them out")
         if any(len(point.readings) == 1 for point in self.points):
-            found.append("some points have one direction only: an offset of the sensor is in them")
+            notes.append("some points have one direction only: an offset of the sensor is in them")
         if all(point.temperature is None for point in self.points):
-            found.append("no temperature by point: that of the oil holds for all")
-        found += [f"not stated: setup.{name}" for name in ("lubrication", "run_in") if self.remarks.get(name) is None]
-        return found
+            notes.append("no temperature by point: that of the oil holds for all")
+        notes += [f"not stated: setup.{name}" for name in ("lubrication", "run_in") if self.remarks.get(name) is None]
+        return notes
 
 
 def _quantities(cls: type) -> dict[str, Quantity]:
@@ -238,15 +238,15 @@ def _points(written: Any, faults: list[Fault]) -> list[dict[str, Any]]:
         faults.append(Fault("points", "must be tables", "", "write [[points]] for each speed"))
         return []
     model, before = _point_model(), len(faults)
-    found: list[dict[str, Any]] = []
+    rows: list[dict[str, Any]] = []
     for place, table in enumerate(written, 1):
         own = len(faults)
         values = read_table(f"points.{place}", model, table, faults)
         if len(faults) == own and not {"torque_forward", "torque_backward"} & set(values):
             remedy = 'add torque_forward = "… N m", torque_backward, or both'
             faults.append(Fault(f"points.{place}.torque_forward", MISSING, "", remedy))
-        found.append(values)
-    return _plausible(found, faults) if len(faults) == before else []
+        rows.append(values)
+    return _plausible(rows, faults) if len(faults) == before else []
 
 
 def _plausible(points: list[dict[str, Any]], faults: list[Fault]) -> list[dict[str, Any]]:

@@ -88,7 +88,7 @@ def balanced_chains(
         for source, values in zip(kernel.sources, inputs, strict=False)
     ]
     forces = [_padded(values, wide) for values in (chains.first_force, chains.last_force, chains.tolerance)]
-    found = np.empty((4, wide))
+    result = np.empty((4, wide))
     scratch = np.empty((2, links, LANES))
     opening = np.zeros((2, wide))
     of_rings = ([], []) if rings is None else ([_padded(rings.stiffness, wide)], [*opening, *np.empty_like(scratch)])
@@ -98,9 +98,9 @@ def balanced_chains(
         wide,
         steps,
         [*given, bars, *forces, np.array([chains.rounding]), *of_rings[0]],
-        [moved, *found, *scratch, *of_rings[1]],
+        [moved, *result, *scratch, *of_rings[1]],
     )
-    open_, force, slope, left = found[:, :count]
+    open_, force, slope, left = result[:, :count]
     return Balanced(moved[:links, :count], open_ == 0, force, slope, left, opening[:, :count])
 
 
@@ -278,7 +278,7 @@ class _ChainWriter:
             "x": start, "behind": _ONE, "carried": _ZERO, "bar": _ZERO, "passed": _ZERO,
             "squares": _ZERO, "most": _ZERO, "force": _ZERO, "slope": _ZERO,
         }  # fmt: skip
-        found = [
+        phis = [
             w.phi(f"%{name}", w.doubles, (first, "newton"), (f"%{name}_next", "forward"))
             for name, first in begins.items()
         ]
@@ -288,7 +288,7 @@ class _ChainWriter:
         w.lines.append("  %row_place = mul i64 %link, %columns")
         w.lines.append("  %place = add i64 %row_place, %column")
         w.lines.append("  %place_next = add i64 %place, %columns")
-        return _LinkBefore(*found)
+        return _LinkBefore(*phis)
 
     def _spring(self, forces: _Forces, x: Value) -> StepEmitter:
         """The spring of a link: the program, with what it reads there."""

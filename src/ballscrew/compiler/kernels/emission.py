@@ -234,15 +234,15 @@ def _emit_reduction(w: Writer, output: int, function: Any, value: Value) -> None
     address = w.instruction(f"getelementptr double, ptr %output{output}, i64 %column")
     before = w.instruction(f"load {w.doubles}, ptr {address}, align 8")
     if function is np.sum:
-        found = w.exact("fadd", before, value)
+        instruction = w.exact("fadd", before, value)
     elif function is np.max:
         keeps = w.on_masks("or", w.compare("oge", before, value), w.compare("uno", before, before))
-        found = w.choose(keeps, before, value)
+        instruction = w.choose(keeps, before, value)
     else:
         raise UnknownOperationError(function.__name__)
     is_first = w.instruction("icmp eq i64 %row, %row_start")
-    found = w.instruction(f"select i1 {is_first}, {w.doubles} {value}, {w.doubles} {found}")
-    w.lines.append(f"  store {w.doubles} {found}, ptr {address}, align 8")
+    instruction = w.instruction(f"select i1 {is_first}, {w.doubles} {value}, {w.doubles} {instruction}")
+    w.lines.append(f"  store {w.doubles} {instruction}, ptr {address}, align 8")
 
 
 @dataclasses.dataclass(frozen=True)

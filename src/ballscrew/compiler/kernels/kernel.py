@@ -178,13 +178,13 @@ class Kernel:
 
 def kept(name: str) -> tuple[bytes, bytes] | None:
     """What was kept on disk for this processor and this compiler under a name: a header, and machine code."""
-    found = None
+    result = None
     with contextlib.suppress(OSError, RuntimeError):  # a look at the folder, before the compiler is loaded
         if any(path.name.startswith(_short(name)) for path in cache_folder().iterdir()):
-            found = _load(f"{_short(name)}{_digest(name)}")
-    if found is None:
+            result = _load(f"{_short(name)}{_digest(name)}")
+    if result is None:
         return None
-    header, newline, machine_code = found.partition(b"\n")
+    header, newline, machine_code = result.partition(b"\n")
     return (header, machine_code) if newline else None
 
 
@@ -246,13 +246,16 @@ def _digest(text: str) -> str:
 
 
 def code_of(text: str, optimisation: int | None = None) -> bytes:
-    """The machine code of an assembly, compiled now; what takes long is logged before.
+    """The machine code of an assembly, compiled now; what takes long is logged before, and said to whoever looks on.
 
     No bit of a result depends on the ``optimisation``, 0 to 2, which is quicker code against quicker compiling.
     """
     expected = text.count("\n") * LINE_SECONDS * (UNOPTIMISED_SHARE if optimisation == 0 else 1)
     if expected > LOGGED_SECONDS:
-        _log.info("compiling a kernel of %d lines: some %.0f s, once", text.count("\n"), expected)
+        notice = f"compiling a kernel of {text.count(chr(10))} lines: some {expected:.0f} s, once"
+        _log.info(notice)
+        if sys.stderr.isatty() or hasattr(sys, "ps1"):  # a terminal, or a notebook
+            sys.stderr.write(f"{notice}\n")
     return _compile(text, optimisation)
 
 

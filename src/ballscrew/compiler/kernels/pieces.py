@@ -71,10 +71,10 @@ def _function(
     w = Writer(lanes)
     here = {i for i, _ in chunk}
     read = dict.fromkeys(o for _, step in chunk for o in step.read if o not in here)
-    found = emit(w, dataclasses.replace(program, steps=chunk), {i: _load(w, places[i]) for i in read})
+    result = emit(w, dataclasses.replace(program, steps=chunk), {i: _load(w, places[i]) for i in read})
     for i, step in chunk:
         if i in places:
-            value = found[i]
+            value = result[i]
             if step.is_mask:
                 value = w.instruction(f"uitofp {w.masks} {value} to {w.doubles}")
             _store(w, places[i], value)

@@ -285,6 +285,6 @@ def pooled_row(row: Field) -> Field:
     Those of the array that is given are the inputs, as :data:`INPUTS` lists them.
     """
     given = np.ascontiguousarray(row)
-    found = np.empty((OUTPUTS, given.shape[1]))
-    _kernel().at_addresses(slice(0, given.shape[1]), slice(0, 1), 1, 1, list(given), list(found))
-    return found[:3]
+    values = np.empty((OUTPUTS, given.shape[1]))
+    _kernel().at_addresses(slice(0, given.shape[1]), slice(0, 1), 1, 1, list(given), list(values))
+    return values[:3]

@@ -139,7 +139,7 @@ def _raise_for_imported_functions(section: bytes) -> None:
 
 def _places_of_functions(sections: Sequence[tuple[int, bytes]]) -> dict[str, int]:
     """The functions of an object by name, of the table of symbols that it has for linkers."""
-    found: dict[str, int] = {}
+    places: dict[str, int] = {}
     for kind, body in sections:
         if kind != _CUSTOM:
             continue
@@ -151,14 +151,14 @@ def _places_of_functions(sections: Sequence[tuple[int, bytes]]) -> dict[str, int
             part, at = body[at], at + 1
             size, at = _read_number(body, at)
             if part == _SYMBOL_TABLE:
-                found |= _functions(body[at : at + size])
+                places |= _functions(body[at : at + size])
             at += size
-    return found
+    return places
 
 
 def _functions(symbols: bytes) -> dict[str, int]:
     """Functions and globals come first in the table of symbols of an object without data."""
-    found: dict[str, int] = {}
+    functions: dict[str, int] = {}
     count, at = _read_number(symbols, 0)
     for _ in range(count):
         kind, at = symbols[at], at + 1
@@ -168,8 +168,8 @@ def _functions(symbols: bytes) -> dict[str, int]:
             continue
         name, at = _read_name(symbols, at)
         if kind == 0:
-            found[name] = place
-    return found
+            functions[name] = place
+    return functions
 
 
 def _name(text: str) -> bytes:
@@ -178,11 +178,11 @@ def _name(text: str) -> bytes:
 
 def _number(value: int) -> bytes:
     """A number in LEB128."""
-    found = b""
+    result = b""
     while value > 127:
-        found += bytes([value & 127 | 128])
+        result += bytes([value & 127 | 128])
         value >>= 7
-    return found + bytes([value])
+    return result + bytes([value])
 
 
 def _read_number(code: bytes, at: int) -> tuple[int, int]:

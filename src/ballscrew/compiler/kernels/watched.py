@@ -36,9 +36,9 @@ class WatchedKernel:
         past_cache: bool | None = None,
     ) -> list[NDArray[np.float64] | None]:
         """Evaluate points; return the ends of each input over them, NaN as both where it has one."""
-        found = np.empty((sum(self._watched), ENDS_OF_EACH, self._lanes), dtype=np.int64)
-        self._kernel(slice(0, 1), slice(0, count), count, inputs, [*results, found], past_cache=past_cache)
-        bits = iter(found)
+        result = np.empty((sum(self._watched), ENDS_OF_EACH, self._lanes), dtype=np.int64)
+        self._kernel(slice(0, 1), slice(0, count), count, inputs, [*results, result], past_cache=past_cache)
+        bits = iter(result)
         return [
             self._ends(values, next(bits)) if watched else None
             for values, watched in zip(inputs, self._watched, strict=True)

@@ -56,11 +56,11 @@ def partials(tape: Tape, output: Traced | float, by: Sequence[int]) -> list[Trac
                 if operand[0] == "step" and int(operand[1]) in active and contribution is not None:
                     _accumulate(writer, adjoints, int(operand[1]), contribution)
     is_number = writer(np.equal, tape.value(last), tape.value(last))
-    found: list[Traced | float] = []
+    result: list[Traced | float] = []
     for i in by:
         value = adjoints[i].value if i in adjoints else 0.0
-        found.append(writer(choose, is_number, value, np.nan))
-    return found
+        result.append(writer(choose, is_number, value, np.nan))
+    return result
 
 
 class _TapeWriter:
@@ -100,13 +100,13 @@ _MASKS = (np.equal, np.less, np.less_equal, np.greater_equal)
 
 def _depending_on(tape: Tape, inputs: Sequence[int]) -> set[int]:
     """The steps that depend on some inputs other than through a mask."""
-    found = set(inputs)
+    depending = set(inputs)
     for i, step in enumerate(tape.steps):
         if step is not None and not step.is_mask:
             operands = step.operands[1:] if step.function is choose else step.operands
-            if any(kind == "step" and int(o) in found for kind, o in operands):
-                found.add(i)
-    return found
+            if any(kind == "step" and int(o) in depending for kind, o in operands):
+                depending.add(i)
+    return depending
 
 
 def _accumulate(writer: _TapeWriter, adjoints: dict[int, _Adjoint], index: int, contribution: _Adjoint) -> None:

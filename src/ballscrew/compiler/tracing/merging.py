@@ -63,12 +63,12 @@ def merged_program(tape: Tape, outputs: Mapping[str, Any]) -> Program:
 
 def _sums(steps: Sequence[tuple[int, Step]]) -> dict[int, _LogarithmSum]:
     """The steps that are weighted sums with a logarithm in them."""
-    found: dict[int, _LogarithmSum] = {}
+    sums: dict[int, _LogarithmSum] = {}
 
     def of(kind: str, operand: Any) -> _LogarithmSum:
         if kind == "constant":
             return _LogarithmSum({}, {}, float(operand))
-        return found.get(int(operand), _LogarithmSum({}, {int(operand): 1.0}, 0.0))
+        return sums.get(int(operand), _LogarithmSum({}, {int(operand): 1.0}, 0.0))
 
     for i, step in steps:
         one: _LogarithmSum | None = None
@@ -82,8 +82,8 @@ def _sums(steps: Sequence[tuple[int, Step]]) -> dict[int, _LogarithmSum]:
                 if kind == "constant":
                     one = of(*other).times(float(factor))
         if one is not None and one.weights and all(one.weights.values()):
-            found[i] = one
-    return found
+            sums[i] = one
+    return sums
 
 
 def _roots(steps: Sequence[tuple[int, Step]], outputs: set[int], sums: Mapping[int, _LogarithmSum]) -> set[int]:

@@ -91,18 +91,18 @@ class Renumbering:
 
 def required_steps(steps: Mapping[int, Step], wanted: Iterable[int]) -> tuple[tuple[int, Step], ...]:
     """The steps that some of them depend on, each just before its first use, which keeps the live set small."""
-    found: dict[int, None] = {}
+    needed: dict[int, None] = {}
     for last in wanted:
         stack = [last]
         while stack:
             index = stack[-1]
-            if index not in steps or index in found:
+            if index not in steps or index in needed:
                 stack.pop()
-            elif missing := [i for i in steps[index].read if i in steps and i not in found]:
+            elif missing := [i for i in steps[index].read if i in steps and i not in needed]:
                 stack += reversed(missing)
             else:
-                found[stack.pop()] = None
-    return tuple((i, steps[i]) for i in found)
+                needed[stack.pop()] = None
+    return tuple((i, steps[i]) for i in needed)
 
 
 #: A function, its operands out of the slots, and the slot of its result.
@@ -134,9 +134,9 @@ class Interpreter:
 
     def with_own_buffers(self) -> Interpreter:
         """The same interpreter with buffers of its own, which go when it goes."""
-        found = copy.copy(self)
-        found._local = threading.local()
-        return found
+        interpreter = copy.copy(self)
+        interpreter._local = threading.local()
+        return interpreter
 
     def _assign_slots(self) -> list[_Call]:
         """Assign a slot to every step: that of its result, or a buffer that is free again after its last use."""
@@ -159,12 +159,12 @@ class Interpreter:
 
     def _slots_of_results(self) -> dict[Operand, int]:
         """A slot for each step that is an output, which goes straight into the first result that it is."""
-        found: dict[Operand, int] = {}
+        slots: dict[Operand, int] = {}
         computed = {i for i, _ in self.program.steps}
         for name, index in self.program.outputs.items():
-            if index in computed and index not in found:
-                found[index] = self._results[name] = self._new_slot()
-        return found
+            if index in computed and index not in slots:
+                slots[index] = self._results[name] = self._new_slot()
+        return slots
 
     def _new_slot(self, value: Any = None) -> int:
         self._slots.append(value)

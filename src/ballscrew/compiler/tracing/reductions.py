@@ -79,12 +79,12 @@ def _behind(program: Program, rank: Mapping[int, int]) -> Program:
 
 def reduced(reductions: Sequence[Reduction], values: Mapping[str, Any], done: Mapping[str, Any]) -> list[Any]:
     """The results of reductions of arrays by name, whose first axis has the rows; some of them are done."""
-    found: list[Any] = []
+    result: list[Any] = []
     for one in reductions:
         if one.values in done:
-            found.append(done[one.values])
+            result.append(done[one.values])
         elif one.place is None:
-            found.append(one.function(values[one.values], axis=0))
+            result.append(one.function(values[one.values], axis=0))
         else:
-            found.append(np.take_along_axis(values[one.values], found[one.place][None], axis=0)[0])
-    return found
+            result.append(np.take_along_axis(values[one.values], result[one.place][None], axis=0)[0])
+    return result

@@ -46,5 +46,5 @@ class Verbatim(np.lib.mixins.NDArrayOperatorsMixin):
 def verbatim_program(inputs: int, formula: Callable[..., Mapping[str, Any]]) -> Program:
     """A formula of so many inputs as a program of the results that it names."""
     tape = Tape(inputs)
-    found = formula(*(Verbatim(tape, i) for i in range(inputs)))
-    return Program.of(tape, {n: tape.value(v.index) if isinstance(v, Verbatim) else v for n, v in found.items()})
+    result = formula(*(Verbatim(tape, i) for i in range(inputs)))
+    return Program.of(tape, {n: tape.value(v.index) if isinstance(v, Verbatim) else v for n, v in result.items()})

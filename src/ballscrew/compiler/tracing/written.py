@@ -52,5 +52,5 @@ def _named(name: str) -> Any:
     """The function of a name; None where there is none."""
     if name == choose.__name__:
         return choose
-    found = getattr(np, name, None)
-    return found if isinstance(found, np.ufunc) else None
+    result = getattr(np, name, None)
+    return result if isinstance(result, np.ufunc) else None

@@ -22,14 +22,14 @@ def ends(values: NDArray[Any]) -> NDArray[Any]:
     if values.size <= 2 * BLOCK or not values.flags.c_contiguous:
         return np.array([values.min(), values.max()])
     flat = values.reshape(-1)
-    found = np.empty((2, math.ceil(flat.size / BLOCK)), dtype=values.dtype)
+    result = np.empty((2, math.ceil(flat.size / BLOCK)), dtype=values.dtype)
 
     def of_block(block: slice) -> None:
         part = flat[block]
-        found[:, block.start // BLOCK] = part.min(), part.max()
+        result[:, block.start // BLOCK] = part.min(), part.max()
 
     map_blocks(of_block, flat.size, block_size=BLOCK)
-    return np.array([found[0].min(), found[1].max()])
+    return np.array([result[0].min(), result[1].max()])
 
 
 def axis_of(section: str, name: str, values: Any, quantity: Quantity) -> xr.DataArray | Fault:

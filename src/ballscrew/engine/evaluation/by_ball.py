@@ -82,9 +82,9 @@ class ByBall:
     def evaluator_of(self, plan: Plan) -> Callable[..., None]:
         """The evaluator of a slice of the flattened grid, into arrays that begin at the given place; it notes ends."""
 
-        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: Mapping[str, Any]) -> None:
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, result: Mapping[str, Any]) -> None:
             points = plan.points(part)
-            for name, noted in found.items():
+            for name, noted in result.items():
                 noted.append(ends(points[name]))
             here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
             self.evaluate(plan.subject, plan.fixed | points, here)
@@ -96,10 +96,10 @@ class ByBall:
         count = len(next(iter(results.values())))
         if count == 1:  # two, so that sums have the same order as among others
             twice = {name: np.repeat(values, 2) if np.ndim(values) else values for name, values in points.items()}
-            found = {name: np.repeat(held, 2) for name, held in results.items()}
-            self.evaluate(subject, twice, found)
+            result = {name: np.repeat(held, 2) for name, held in results.items()}
+            self.evaluate(subject, twice, result)
             for name, held in results.items():
-                held[...] = found[name][:1]
+                held[...] = result[name][:1]
             return
         changed = subject.changed({name: values for name, values in points.items() if name not in OPERATION})
         with np.errstate(all="ignore"):
@@ -116,17 +116,17 @@ class ByBall:
                 for source, name in self._cut.tables
             ]
             values, done = self._over_balls(inputs, len(of_balls[0]), count)
-            found = reduced(self._cut.reductions, values, done)
-            self._behind.run([*of_points, *([None] * len(OF_BALLS)), *found], results)
+            result = reduced(self._cut.reductions, values, done)
+            self._behind.run([*of_points, *([None] * len(OF_BALLS)), *result], results)
 
     def _tables(self, of_points: Sequence[Any], count: int) -> dict[str, NDArray[np.float64]]:
         """What does not depend on the ball, for each point."""
         program = self._cut.columns
         masks = {i for i, step in program.steps if step.is_mask}
-        found = {n: np.empty(count, dtype=bool if i in masks else float) for n, i in program.outputs.items()}
-        if found:
-            self._of_points.run([*of_points, *([None] * len(OF_BALLS))], found)
-        return {name: values.astype(float, copy=False) for name, values in found.items()}
+        result = {n: np.empty(count, dtype=bool if i in masks else float) for n, i in program.outputs.items()}
+        if result:
+            self._of_points.run([*of_points, *([None] * len(OF_BALLS))], result)
+        return {name: values.astype(float, copy=False) for name, values in result.items()}
 
     def _over_balls(
         self, inputs: Sequence[NDArray[np.float64]], balls: int, count: int
@@ -135,18 +135,18 @@ class ByBall:
         sums = self._cut.sums
         names = self._cut.outputs
         if self._kernel is not None:
-            found = {n: aligned_array(count + self._cut.lanes if n in sums else balls * count, float) for n in names}
+            result = {n: aligned_array(count + self._cut.lanes if n in sums else balls * count, float) for n in names}
             self._kernel(
-                slice(0, balls), slice(0, count), count, inputs, list(found.values()), past_cache=False, tile=TILE
+                slice(0, balls), slice(0, count), count, inputs, list(result.values()), past_cache=False, tile=TILE
             )
-            values = {name: held.reshape(balls, count) for name, held in found.items() if name not in sums}
-            return values, {name: held[:count] for name, held in found.items() if name in sums}
+            values = {name: held.reshape(balls, count) for name, held in result.items() if name not in sums}
+            return values, {name: held[:count] for name, held in result.items() if name in sums}
         assert self._before is not None, "a kernel, or NumPy"
-        found = {name: np.empty(balls * count) for name in names}
+        result = {name: np.empty(balls * count) for name in names}
         whole = [values.reshape(-1) if values.ndim > 1 else np.tile(values, balls) for values in inputs]
         if names:
-            self._before.run(whole, found)
-        return {name: held.reshape(balls, count) for name, held in found.items()}, {}
+            self._before.run(whole, result)
+        return {name: held.reshape(balls, count) for name, held in result.items()}, {}
 
 
 def by_ball(
@@ -193,8 +193,8 @@ def by_ball(
 
 def _names(subject: Configuration, outputs: tuple[str, ...], names: Sequence[str]) -> dict[bool, str]:
     """The names under which kernels are kept, by whether they were compiled quickly."""
-    found = {quick: name_of(f"by ball, {quick}", subject, outputs, names) for quick in (False, True)}
-    return {quick: name for quick, name in found.items() if name is not None}
+    values = {quick: name_of(f"by ball, {quick}", subject, outputs, names) for quick in (False, True)}
+    return {quick: name for quick, name in values.items() if name is not None}
 
 
 def _kept_of(kept_as: Mapping[bool, str], work: int) -> CutByBall | None:
@@ -222,14 +222,14 @@ def _by_an_engine(
         if engine != "numpy" and kernels.available():
             text = _text(made_of, stages, cut)
             if engine or worth_compiling(cut.points, asked, text, anew=anew):
-                found = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, *how)
-                return ByBall(plan, found, "compiled", ASKED_FOR if engine else PAYS)
+                result = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, *how)
+                return ByBall(plan, result, "compiled", ASKED_FOR if engine else PAYS)
     except UnknownOperationError as unknown:
         why = f"{unknown} is not known to kernels"
         if engine == "compiled":
             return why
-    found = made_of.once("by NumPy", lambda: CutByBall.of(stages, cut, names, made_of.program.text, cut.points))
-    return ByBall(plan, found, "numpy", why)
+    result = made_of.once("by NumPy", lambda: CutByBall.of(stages, cut, names, made_of.program.text, cut.points))
+    return ByBall(plan, result, "numpy", why)
 
 
 def _compiled(cut: CutByBall, text: str, kept_as: str | None, optimisation: int | None) -> CutByBall:
@@ -237,13 +237,13 @@ def _compiled(cut: CutByBall, text: str, kept_as: str | None, optimisation: int 
     if kept_as is None:
         return cut.with_kernel(Kernel.of(text, cut.sources))
     with kept.making:
-        found = kept.get(kept_as, _read)
-        if found is None:
+        cut_by_ball = kept.get(kept_as, _read)
+        if cut_by_ball is None:
             machine_code = kernels.code_of(text, optimisation)
             if cut.can_be_written:
                 keep(kept_as, cut.header, machine_code)
-            found = kept.add(kept_as, cut.with_kernel(Kernel(machine_code, cut.sources)))
-        return found
+            cut_by_ball = kept.add(kept_as, cut.with_kernel(Kernel(machine_code, cut.sources)))
+        return cut_by_ball
 
 
 def _read(header: bytes, machine_code: bytes) -> CutByBall:
@@ -354,10 +354,10 @@ def stages_by_ball(program: Program, names: Sequence[str]) -> tuple[Stages, Spli
 
 def _of(program: Program, outputs: Sequence[str]) -> Program:
     """Some of the outputs of a program."""
-    found = {name: program.outputs[name] for name in outputs if name in program.outputs}
+    values = {name: program.outputs[name] for name in outputs if name in program.outputs}
     constants = {name: program.constants[name] for name in outputs if name in program.constants}
-    steps = required_steps(dict(program.steps), found.values())
-    return dataclasses.replace(program, steps=steps, outputs=found, constants=constants)
+    steps = required_steps(dict(program.steps), values.values())
+    return dataclasses.replace(program, steps=steps, outputs=values, constants=constants)
 
 
 def _text(made_of: Recording, stages: Stages, cut: Split) -> str:

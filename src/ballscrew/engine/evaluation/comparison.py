@@ -172,7 +172,7 @@ def compare(
         change = float(result.screw_torque) / own.torque - 1 if own.torque else math.nan
         return Row(candidate, result, change)
 
-    models, laws = ([c for c in found if c.model.knows(screw.nut)] for found in (models, laws))
+    models, laws = ([c for c in each if c.model.knows(screw.nut)] for each in (models, laws))
     return Comparison(
         own,
         [row(candidate) for candidate in models],

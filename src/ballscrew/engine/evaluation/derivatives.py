@@ -116,11 +116,11 @@ class Slopes(Plan):
     @functools.cached_property
     def wanted(self) -> dict[str, Output]:
         """The outputs, each followed by its derivatives."""
-        found: dict[str, Output] = {}
+        outputs: dict[str, Output] = {}
         for name in self.outputs:
-            found[name] = known_outputs(self.subject.nut)[name]
-            found |= {slope_name(name, x): self._slope(found[name], x) for x in self.by}
-        return found
+            outputs[name] = known_outputs(self.subject.nut)[name]
+            outputs |= {slope_name(name, x): self._slope(outputs[name], x) for x in self.by}
+        return outputs
 
     def _slope(self, output: Output, name: str) -> Output:
         above, below = output.quantity, self.subject.inputs[name][1]
@@ -135,19 +135,19 @@ class Slopes(Plan):
     def recorded(self, groups: Sequence[int] | None = None) -> Program:
         """The outputs and their derivatives as a program of the varying inputs."""
         varying, tape = self.varying, self.tape(groups)
-        found: dict[str, Any] = {}
+        values: dict[str, Any] = {}
         try:
             with self.subject.recording():
                 result = self.subject.at(self.fixed | self.traced(tape))
                 for name in self.outputs:
-                    found[name] = known_outputs(self.subject.nut)[name].read(result)
-                    slopes = partials(tape, found[name], [varying.index(x) for x in self.by])
-                    found |= {slope_name(name, x): slope for x, slope in zip(self.by, slopes, strict=True)}
+                    values[name] = known_outputs(self.subject.nut)[name].read(result)
+                    slopes = partials(tape, values[name], [varying.index(x) for x in self.by])
+                    values |= {slope_name(name, x): slope for x, slope in zip(self.by, slopes, strict=True)}
         except UnknownDerivativeError as unknown:
             raise InputError(Fault("derivatives", f"{unknown} has no derivative here", "", JAX_INSTEAD)) from None
         except CannotRecordError as why:
             raise InputError(Fault("derivatives", f"a law cannot be recorded: {why}", "", JAX_INSTEAD)) from None
-        return merged_program(tape, found)
+        return merged_program(tape, values)
 
 
 def _unreadable(_: Any) -> Any:
@@ -166,6 +166,6 @@ def _by_jax(slopes: Slopes) -> xr.Dataset:
         result = slopes.subject.at({**slopes.fixed, **values})
         return {name: known_outputs(slopes.subject.nut)[name].read(result) for name in slopes.outputs}
 
-    values, found = jax_value_and_partials(outputs_of, points, slopes.outputs, slopes.by)
-    named = {slope_name(output, x): slope for (output, x), slope in found.items()}
+    values, outcome = jax_value_and_partials(outputs_of, points, slopes.outputs, slopes.by)
+    named = {slope_name(output, x): slope for (output, x), slope in outcome.items()}
     return slopes.dataset({name: (values | named)[name] for name in slopes.wanted})

@@ -192,10 +192,10 @@ class Evaluation:
         Raises :class:`~ballscrew.basis.errors.InputError` for bad values of an axis that is checked where it is read.
         """
         total = block.stop - block.start
-        found: _Ends = {name: [] for name in self.plan.unchecked}
+        result: _Ends = {name: [] for name in self.plan.unchecked}
 
         def evaluate(part: slice) -> None:
-            self._evaluate(slice(block.start + part.start, block.start + part.stop), results, block.start, found)
+            self._evaluate(slice(block.start + part.start, block.start + part.stop), results, block.start, result)
 
         map_blocks(
             evaluate,
@@ -204,8 +204,8 @@ class Evaluation:
             threads=threads,
             done=None if done is None else lambda n: done(n, total),
         )
-        if found:
-            self.plan.check({name: ends(np.array(pairs)) for name, pairs in found.items()})
+        if result:
+            self.plan.check({name: ends(np.array(pairs)) for name, pairs in result.items()})
 
     def _usual_block(self, total: int, threads: int | None) -> int:
         if self._block_size < SMALLEST_BLOCK and self.engine == "compiled":
@@ -240,9 +240,9 @@ def _by_structure(plan: Plan, known: StructureKernel) -> Evaluation:
     def evaluator_of(plan: Plan) -> _BlockEvaluator:
         at = known.at(plan)
 
-        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, result: _Ends) -> None:
             points = plan.points(part)
-            for name, noted in found.items():
+            for name, noted in result.items():
                 noted.append(ends(points[name]))
             at(points, {name: values[part.start - first : part.stop - first] for name, values in results.items()})
 
@@ -258,9 +258,9 @@ def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
     interpreter = None if program is None else program.interpreter.with_own_buffers()
 
     def evaluator_of(plan: Plan) -> _BlockEvaluator:
-        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, outcome: _Ends) -> None:
             points = plan.points(part)
-            for name, noted in found.items():
+            for name, noted in outcome.items():
                 noted.append(ends(points[name]))
             here = {name: values[part.start - first : part.stop - first] for name, values in results.items()}
             with np.errstate(all="ignore"):
@@ -326,18 +326,18 @@ class _Kernels:
         names, constants = list(self.program.outputs), self.program.constants
 
         def evaluator_of(plan: Plan) -> _BlockEvaluator:
-            def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
+            def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, result: _Ends) -> None:
                 for name, value in constants.items():
                     results[name][part.start - first : part.stop - first] = value
-                if names or found:
-                    self.evaluate(plan, kernel, part, [results[name] for name in names], first, found)
+                if names or result:
+                    self.evaluate(plan, kernel, part, [results[name] for name in names], first, result)
 
             return evaluate
 
         return evaluator_of
 
     def evaluate(
-        self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int, found: _Ends
+        self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int, result: _Ends
     ) -> None:
         """Run the kernel over a part of the flattened grid."""
         raise NotImplementedError
@@ -360,7 +360,7 @@ class _Points(_Kernels):
         return super().compiled()
 
     def evaluate(
-        self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int, found: _Ends
+        self, plan: Plan, kernel: Kernel, part: slice, results: Sequence[NDArray[Any]], first: int, result: _Ends
     ) -> None:
         """Run the kernel over a part of the flattened grid."""
         points = plan.points(part)
@@ -368,12 +368,12 @@ class _Points(_Kernels):
         here = [values[part.start - first : part.stop - first] for values in results]
         count = part.stop - part.start
         large = sum(values.nbytes for values in results) > kernels.LARGEST_CACHED
-        if found and self.watched is not None:
+        if result and self.watched is not None:
             seen = dict(zip(plan.varying, self.watched(count, inputs, here, past_cache=large), strict=True))
-            for name, noted in found.items():
+            for name, noted in result.items():
                 noted.append(seen[name])
             return
-        for name, noted in found.items():
+        for name, noted in result.items():
             noted.append(ends(points[name]))
         kernel(slice(0, 1), slice(0, count), count, inputs, here, past_cache=large)
 
@@ -412,7 +412,7 @@ class _Grid(_Kernels):
         return "\n".join([super().formulas, self.cut.rows.text, self.cut.columns.text])
 
     def _tables(self) -> list[NDArray[np.float64]]:
-        found: dict[tuple[Source, str], NDArray[np.float64]] = {}
+        result: dict[tuple[Source, str], NDArray[np.float64]] = {}
         programs: dict[Source, Program] = {"rows": self.cut.rows, "columns": self.cut.columns}
         for source, program in programs.items():
             names = list(program.outputs)
@@ -427,8 +427,8 @@ class _Grid(_Kernels):
                 with np.errstate(all="ignore"):
                     program.interpreter.with_own_buffers().run([inputs[name] for name in self.plan.varying], values)
             for name in names:
-                found[source, name] = values[name].astype(float, copy=False)
-        return [found[key] for key in self.cut.tables]
+                result[source, name] = values[name].astype(float, copy=False)
+        return [result[key] for key in self.cut.tables]
 
     def evaluate(
         self,
@@ -437,7 +437,7 @@ class _Grid(_Kernels):
         part: slice,
         results: Sequence[NDArray[Any]],
         first: int,
-        found: _Ends,  # noqa: ARG002  (axes of a grid are checked before)
+        result: _Ends,  # noqa: ARG002  (axes of a grid are checked before)
     ) -> None:
         """Run the kernel over a part of the flattened grid."""
         for rows, columns in rectangles(part, self.row_length):

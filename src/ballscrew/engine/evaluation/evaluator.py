@@ -229,7 +229,7 @@ class Evaluator:
             given = ", ".join(f"{name} {array.shape}" for name, array in zip(self.inputs, arrays, strict=True))
             raise InputError(Fault("evaluator", "the shapes do not broadcast", given, "make them fit")) from None
         size = int(np.prod(shape))
-        found = {name: aligned_array(size, bool if mask else float) for name, mask in self._masks.items()}
+        outcome = {name: aligned_array(size, bool if mask else float) for name, mask in self._masks.items()}
         block_size = (
             self._largest_block if self.engine == "compiled" and size > 8 * LARGE_KERNEL_BLOCK else self._block_size
         )
@@ -242,10 +242,10 @@ class Evaluator:
             here = [
                 values[:count] if array.size == 1 else values[part] for values, array in zip(flat, arrays, strict=True)
             ]
-            self._on_arrays(here, {name: result[part] for name, result in found.items()})
+            self._on_arrays(here, {name: result[part] for name, result in outcome.items()})
 
         map_blocks(evaluate, size, block_size=block_size, threads=self._threads)
-        return {name: result.reshape(shape)[()] for name, result in found.items()}
+        return {name: result.reshape(shape)[()] for name, result in outcome.items()}
 
     def _point_as_arrays(self, masks: Mapping[str, bool], inputs: int) -> _OnPoint:
         """One point without a kernel."""
@@ -292,11 +292,11 @@ def _recorded(plan: Plan, quantities: Mapping[str, Quantity], fixed: Mapping[str
     slopes: dict[str, Any] = {}
 
     def value(output: Output, result: Any) -> Any:
-        found = output.read(result)
+        values = output.read(result)
         if by:
-            found_by = zip(by, partials(tape, found, [names.index(x) for x in by]), strict=True)
+            found_by = zip(by, partials(tape, values, [names.index(x) for x in by]), strict=True)
             slopes.update({slope_name(output.name, x): slope for x, slope in found_by})
-        return _within(inside, output, found)
+        return _within(inside, output, values)
 
     def slope(output: Output, _: Any) -> Any:
         return _within(inside, output, slopes[output.name])

@@ -106,10 +106,10 @@ def recorder_digest() -> str:
 
     It is random where files have changed since the import: what runs is what they were before.
     """
-    found = _digest_of(_files_of_recordings())
+    digest = _digest_of(_files_of_recordings())
     if not stands_as_imported():  # asked after reading, so that no change falls between
-        found = secrets.token_hex(32)
-    return f"{found} {sys.version} {np.__version__}"
+        digest = secrets.token_hex(32)
+    return f"{digest} {sys.version} {np.__version__}"
 
 
 def stands_as_imported() -> bool:
@@ -126,11 +126,11 @@ def _files_of_recordings() -> list[Path]:
 
 
 def _digest_of(paths: Iterable[Path]) -> str:
-    found = hashlib.sha256()
+    result = hashlib.sha256()
     for path in sorted(paths):
         content = path.read_bytes()
-        found.update(f"{path.relative_to(_FOLDER).as_posix()} {len(content)}\n".encode() + content)
-    return found.hexdigest()
+        result.update(f"{path.relative_to(_FOLDER).as_posix()} {len(content)}\n".encode() + content)
+    return result.hexdigest()
 
 
 class _Visit:
@@ -147,7 +147,7 @@ class _Visit:
         self._in_package = False
 
     def digest_of(self, values: Mapping[str, Any]) -> str:
-        found = hashlib.sha256(self._digest(dict(values)))
+        result = hashlib.sha256(self._digest(dict(values)))
         position = 0
         while position < len(self._reached):
             item = self._reached[position]
@@ -155,9 +155,9 @@ class _Visit:
             if position > _MOST:
                 self.unknown.append(f"more than {_MOST} functions")
                 break
-            found.update(self._of_function(item) if isinstance(item, types.FunctionType) else self._of_class(item))
+            result.update(self._of_function(item) if isinstance(item, types.FunctionType) else self._of_class(item))
             position += 1
-        return found.hexdigest()
+        return result.hexdigest()
 
     # -- values -----------------------------------------------------------------------------------
 
@@ -175,11 +175,11 @@ class _Visit:
             return f"within {len(self._open) - self._open.index(key)};".encode()
         self._open.append(key)
         try:
-            found = hashlib.blake2b(self._content(value), digest_size=16).digest()
+            digest = hashlib.blake2b(self._content(value), digest_size=16).digest()
         finally:
             self._open.pop()
-        self._known[key] = value, found
-        return found
+        self._known[key] = value, digest
+        return digest
 
     def _content(self, value: Any) -> bytes:
         kind = type(value)
@@ -225,9 +225,9 @@ class _Visit:
 
     def _of_method(self, method: types.MethodType) -> bytes:
         """The object of a method, and its name or its function."""
-        found = getattr(type(method.__self__), method.__name__, None)
+        result = getattr(type(method.__self__), method.__name__, None)
         # a copy from another process has a function of its own beside that of its class
-        is_of_class = getattr(found, "__code__", None) == method.__func__.__code__
+        is_of_class = getattr(result, "__code__", None) == method.__func__.__code__
         return self._all("method", (method.__self__, method.__name__ if is_of_class else method.__func__))
 
     def _all(self, kind: str, parts: Iterable[Any]) -> bytes:
@@ -324,10 +324,10 @@ class _Visit:
             return b"module"
         self._open.append(key)
         try:
-            found = [self._of_global(name, space[name], set(names)) for name in sorted({*names} & space.keys())]
+            values = [self._of_global(name, space[name], set(names)) for name in sorted({*names} & space.keys())]
         finally:
             self._open.pop()
-        return b"module" + b"".join(found)
+        return b"module" + b"".join(values)
 
     def _of_import(self, name: str, names: set[str]) -> bytes:
         try:
@@ -367,12 +367,12 @@ def _constant(value: Any, names: set[str]) -> Any:
 
 def _imported(code: types.CodeType) -> list[str]:
     """The modules that code imports when it runs."""
-    found = [
+    names = [
         name for constant in code.co_consts if isinstance(constant, types.CodeType) for name in _imported(constant)
     ]
     if opmap["IMPORT_NAME"] in code.co_code[::2]:
-        found += [str(step.argval) for step in get_instructions(code) if step.opname == "IMPORT_NAME"]
-    return found
+        names += [str(step.argval) for step in get_instructions(code) if step.opname == "IMPORT_NAME"]
+    return names
 
 
 def _content_of(cell: types.CellType) -> Any:

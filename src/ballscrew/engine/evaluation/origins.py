@@ -32,10 +32,10 @@ def name_in_library(value: Any) -> str:
         return ""
     if isinstance(value, type) and module == "builtins":
         return f"{library(module)}:{name};"  # also types without a name there, as that of None
-    found: Any = sys.modules.get(module)
+    result: Any = sys.modules.get(module)
     for part in name.split("."):
-        found = getattr(found, part, None)
-    return f"{library(module)}:{module}.{name};" if found is value else ""
+        result = getattr(result, part, None)
+    return f"{library(module)}:{module}.{name};" if result is value else ""
 
 
 def origin(item: Any) -> Origin:

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.physics.components.contact import Contact, RaceState
 from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE, Lubricant
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.operating_state import OperatingState
@@ -16,6 +15,7 @@ from ballscrew.physics.components.screw import MATERIALS, SINGLE_NUT, BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
+from ballscrew.physics.laws.contact import Contact, RaceState
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: The fields of the operating point, which every sweep needs.
@@ -85,33 +85,33 @@ def known_outputs(nut: Nut = SINGLE_NUT) -> Mapping[str, Output]:
 @functools.cache
 def _outputs(is_row: bool, contacts_per_ball: int, losses: tuple[str, ...]) -> Mapping[str, Output]:
     """The outputs of a screw whose nut has these losses."""
-    found: dict[str, Output] = {}
+    outputs: dict[str, Output] = {}
     known = quantities_of(FrictionResult)
     for name, quantity in known.items():
         if name not in OPERATION and not (contacts_per_ball > 2 and name in OF_TWO_CONTACTS):
-            found[name] = Output(name, quantity, lambda r, n=name: getattr(r, n))
+            outputs[name] = Output(name, quantity, lambda r, n=name: getattr(r, n))
     torque = known["screw_torque"]
     for mechanism, words in {**MECHANISMS, **{name: name for name in losses}}.items():
         info = dataclasses.replace(
             torque.info, symbol=f"M_S ({words})", meaning=f"friction torque on the screw by {words}"
         )
         name = f"contribution_{mechanism}"
-        found[name] = Output(name, Quantity(name, torque.unit, info), lambda r, m=mechanism: r.contributions[m])
+        outputs[name] = Output(name, Quantity(name, torque.unit, info), lambda r, m=mechanism: r.contributions[m])
     mask = known["valid"]
     for reason, words in (REASONS if is_row else NUT_REASONS).items():
         name, info = f"validity_{reason}", Info(reason, f"holds where true; where false, {words}")
-        found[name] = Output(name, Quantity(name, mask.unit, info), lambda r, n=reason: r.validity[n])
+        outputs[name] = Output(name, Quantity(name, mask.unit, info), lambda r, n=reason: r.validity[n])
     of_loads = {name: quantities_of(BallLoads)[name] for name in OF_LOADS}
-    found |= {n: Output(n, q, lambda r, n=n: getattr(r.loads, n)) for n, q in of_loads.items()}
+    outputs |= {n: Output(n, q, lambda r, n=n: getattr(r.loads, n)) for n, q in of_loads.items()}
     contact = RaceState if contacts_per_ball == 2 else Contact
     for side in ("screw", "nut"):
         for name, quantity in quantities_of(contact).items():
             info = dataclasses.replace(quantity.info, meaning=f"{quantity.info.meaning}, ball–{side} contact")
             full = f"{side}_{name}"
-            found[full] = Output(
+            outputs[full] = Output(
                 full, Quantity(full, quantity.unit, info), lambda r, s=side, n=name: getattr(getattr(r, s), n)
             )
-    return found
+    return outputs
 
 
 def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> Mapping[str, tuple[str, Quantity]]:
@@ -123,22 +123,22 @@ def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> M
     of an oil made from a grade or from a data sheet, whose viscosities and density are inputs, too.
     """
     parts = {"operation": OperatingState, "screw": screw, "lubricant": lubricant, "model": model}
-    found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
+    inputs = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
     for body, material in zip(MATERIALS, screw.materials, strict=True):
-        found |= {f"{body}.{name}": ("screw", quantity) for name, quantity in fields_of(material).items()}
+        inputs |= {f"{body}.{name}": ("screw", quantity) for name, quantity in fields_of(material).items()}
     of_nut = fields_of(screw.nut)
-    found |= {name: ("nut", quantity) for name, quantity in of_nut.items()}
-    found |= {f"nut.{name}": ("nut", quantity) for name, quantity in of_nut.items()}
+    inputs |= {name: ("nut", quantity) for name, quantity in of_nut.items()}
+    inputs |= {f"nut.{name}": ("nut", quantity) for name, quantity in of_nut.items()}
     for section, law in screw.nut.parts.items():
         if section.startswith("losses."):
-            found |= {f"{section}.{name}": ("nut", quantity) for name, quantity in fields_of(law).items()}
+            inputs |= {f"{section}.{name}": ("nut", quantity) for name, quantity in fields_of(law).items()}
     if lubricant.follows_temperature:
-        found[TEMPERATURE.name] = ("lubricant", lubricant.temperature_quantity)
+        inputs[TEMPERATURE.name] = ("lubricant", lubricant.temperature_quantity)
     if lubricant.sheet is not None:
-        found |= {name: ("lubricant", quantity) for name, quantity in INPUTS_OF_SHEET.items()}
+        inputs |= {name: ("lubricant", quantity) for name, quantity in INPUTS_OF_SHEET.items()}
     for slot, law in model.laws_with_coefficients.items():
-        found |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
-    return found
+        inputs |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
+    return inputs
 
 
 def slope_name(output: str, name: str) -> str:

@@ -35,11 +35,11 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut, NutParts
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.model import SLOTS, FrictionModel
 from ballscrew.physics.friction.plausibility import implausible, named_parts
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: Attributes of a dataset that is starved of oil: the friction torque as given and in a full bath where it is most so.
@@ -193,8 +193,8 @@ class Configuration(ByValue):
             places = places[np.argsort(left[places], kind="stable")][some]
         torques: list[tuple[float, float]] = []
         for first in range(0, places.size, _AT_ONCE):
-            found = self.at({name: values[places[first : first + _AT_ONCE]] for name, values in every.items()})
-            both = starvation.most_starved(found.screw_torque, found.flooded_torque)
+            result = self.at({name: values[places[first : first + _AT_ONCE]] for name, values in every.items()})
+            both = starvation.most_starved(result.screw_torque, result.flooded_torque)
             torques += [] if both is None else [both]
         most_of_all = starvation.most_starved(*np.transpose(torques)) if torques else None
         return [] if most_of_all is None else _starvation_record(*most_of_all, remark)
@@ -220,13 +220,13 @@ class Configuration(ByValue):
     def _attributes_of_nut(self, varied: Sequence[str]) -> dict[str, Any]:
         """The kind of the nut, its own numbers, and those of its parts."""
         parts = named_parts(self.model, self.screw, self.lubricant)
-        found: dict[str, Any] = {} if self.nut.is_row else {"nut_kind": type(self.nut).__name__}
-        found |= {f"nut_{name}": "true" for name in ("spacer_balls", "set_at_rest") if getattr(self.nut, name)}
+        values: dict[str, Any] = {} if self.nut.is_row else {"nut_kind": type(self.nut).__name__}
+        values |= {f"nut_{name}": "true" for name in ("spacer_balls", "set_at_rest") if getattr(self.nut, name)}
         for section in self.nut.parts:
             for name in fields_of(parts[section]):
                 if not {name, f"{section}.{name}"} & set(varied):
-                    found[f"{section.replace('.', '_')}_{name}"] = getattr(parts[section], name)
-        return {name: value for name, value in found.items() if value is not None}
+                    values[f"{section.replace('.', '_')}_{name}"] = getattr(parts[section], name)
+        return {name: value for name, value in values.items() if value is not None}
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -273,12 +273,12 @@ class Plan:
         """The inputs whose values are to be checked where they are read."""
         return ()
 
-    def check(self, found: Mapping[str, np.ndarray]) -> None:
+    def check(self, values: Mapping[str, np.ndarray]) -> None:
         """Check what is unchecked by the ends of its values. Raises :class:`~ballscrew.basis.errors.InputError`."""
         known = self.subject.inputs
-        checked = [faults_of_axis(*known[name], self.axes[name].to_numpy(), held) for name, held in found.items()]
+        checked = [faults_of_axis(*known[name], self.axes[name].to_numpy(), held) for name, held in values.items()]
         raise_if_any([fault for faults in checked for fault in faults])
-        vars(self).update(extremes={**self.extremes, **found}, unchecked=())
+        vars(self).update(extremes={**self.extremes, **values}, unchecked=())
 
     @functools.cached_property
     def extremes(self) -> Mapping[str, np.ndarray]:
@@ -345,13 +345,13 @@ class Plan:
     def coordinates(self) -> dict[str, Any]:
         """The axes as coordinates of a dataset, with the labels they came with."""
         known = self.subject.inputs
-        found: dict[str, Any] = {
+        result: dict[str, Any] = {
             str(label): values
             for axis in self.axes.values()
             for label, values in axis.coords.items()
             if label in axis.dims and label not in self.axes
         }
-        return found | {n: (axis.dims, axis.to_numpy(), attributes_of(known[n][1])) for n, axis in self.axes.items()}
+        return result | {n: (axis.dims, axis.to_numpy(), attributes_of(known[n][1])) for n, axis in self.axes.items()}
 
     @functools.cached_property
     def starved_torques(self) -> tuple[float, float] | None:
@@ -362,8 +362,8 @@ class Plan:
         """
         if self._least_replenished >= starvation.NEARLY_ALL:
             return None
-        found = self.subject.at({**self.fixed, **self.points_at(self._some_places)})
-        return starvation.most_starved(found.screw_torque, found.flooded_torque)
+        result = self.subject.at({**self.fixed, **self.points_at(self._some_places)})
+        return starvation.most_starved(result.screw_torque, result.flooded_torque)
 
     @property
     def _least_replenished(self) -> float:

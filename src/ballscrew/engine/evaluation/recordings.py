@@ -278,7 +278,7 @@ def _is_own(item: Any) -> bool:
         return False
     if isinstance(item, types.FunctionType) and not item.__globals__["__name__"].startswith(f"{_PACKAGE}."):
         return False  # one from outside that took the name of what it wraps
-    found: Any = sys.modules.get(module)
+    result: Any = sys.modules.get(module)
     for name in item.__qualname__.split("."):
-        found = getattr(found, name, None)
-    return found is item
+        result = getattr(result, name, None)
+    return result is item

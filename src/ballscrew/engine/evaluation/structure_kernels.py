@@ -92,12 +92,12 @@ class StructureKernel:
             inputs[place], strides[place] = np.ascontiguousarray(values, dtype=float), 1
         layout = self.layout
         spare: dict[bool, NDArray[Any]] = {}  # what nobody asked for goes where nobody looks
-        found: list[NDArray[Any]] = []
+        result: list[NDArray[Any]] = []
         for name, mask in zip(layout.outputs, layout.masks, strict=True):
             if name not in results and mask not in spare:
                 spare[mask] = np.empty(count, dtype=bool if mask else float)
-            found.append(results[name] if name in results else spare[mask])
-        self.kernel.strided(count, inputs, strides, found)
+            result.append(results[name] if name in results else spare[mask])
+        self.kernel.strided(count, inputs, strides, result)
         for name, value in layout.constants.items():
             if name in results:
                 results[name][...] = value
@@ -118,15 +118,15 @@ class StructureKernel:
         held = np.array([known.get(name, math.nan) for name in layout.inputs], dtype=float)
         direct = [self.place.get(own_name(name), -1) for name in inputs]
         places = [place for place in direct if place >= 0]
-        found = [
+        result = [
             results.get(name, np.zeros(1, dtype=bool if mask else float))
             for name, mask in zip(layout.outputs, layout.masks, strict=True)
         ]
         for name in layout.constants.keys() & results.keys():
             results[name][...] = layout.constants[name]
-        call = self.kernel.at_one_point(held, found)
+        call = self.kernel.at_one_point(held, result)
 
-        def at(values: Sequence[float], _: Sequence[Any] = found) -> None:  # the arrays live as long as the function
+        def at(values: Sequence[float], _: Sequence[Any] = result) -> None:  # the arrays live as long as the function
             for place, value in zip(places, values, strict=True):  # sooner done than by an array of places
                 held[place] = value
             call()
@@ -202,8 +202,8 @@ class OilFollows:
         try:
             with self.subject.recording():
                 changed = self.subject.lubricant.changed({n: tape.value(i) for i, n in enumerate(self.inputs)})
-                found = {name: changed.value_of(name) for name in self.places}
-                return merged_program(tape, found)
+                values = {name: changed.value_of(name) for name in self.places}
+                return merged_program(tape, values)
         except CannotRecordError:
             return None
 
@@ -214,15 +214,15 @@ class OilFollows:
         if self.program is None:
             changed = self.subject.lubricant.changed({n: points[n] for n in self.inputs})
             return others | {name: changed.value_of(name) for name in self.places}
-        found = {name: np.empty(arrays[0].size) for name in self.places}
+        result = {name: np.empty(arrays[0].size) for name in self.places}
         try:
             interpreter: Interpreter = self._programs.interpreter
         except AttributeError:  # the first call in this thread
             interpreter = self._programs.interpreter = self.program.interpreter.with_own_buffers()
         with np.errstate(all="ignore"):
-            interpreter.run(arrays, found)
+            interpreter.run(arrays, result)
         is_one = all(np.ndim(points[name]) == 0 for name in self.inputs)
-        return others | {name: values[0] if is_one else values for name, values in found.items()}
+        return others | {name: values[0] if is_one else values for name, values in result.items()}
 
 
 class _Kept:
@@ -326,9 +326,9 @@ class Structure:
         if self.name is None:
             return None
         with kept.making:
-            found = self.known()
-            if found is not None or self.name in kept.impossible:
-                return found
+            kernel = self.known()
+            if kernel is not None or self.name in kept.impossible:
+                return kernel
             try:
                 layout, machine_code = self._compiled()
             except (CannotRecordError, UnknownDerivativeError, UnknownOperationError):

@@ -52,7 +52,7 @@ def inputs_of_structure(subject: Configuration, varying: Sequence[str] = ()) -> 
     """
     varied = set(map(own_name, varying))
     seen: set[str] = set()
-    found: list[str] = []
+    names: list[str] = []
     parts = subject.by_section
     for name, (part, _) in subject.inputs.items():
         own = own_name(name)
@@ -61,8 +61,8 @@ def inputs_of_structure(subject: Configuration, varying: Sequence[str] = ()) -> 
             continue
         seen.add(own)
         if own in varied or read_input(parts[part], name) is not None:
-            found.append(own)
-    return (*OPERATION, *found)
+            names.append(own)
+    return (*OPERATION, *names)
 
 
 def own_name(name: str) -> str:
@@ -140,14 +140,14 @@ def recorded_structure(
     points = {name: tape.value(i) for i, name in enumerate(names)}
     if not by:
         return subject.recorded(tape, points, wanted)
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     with subject.recording():
         result = subject.at(points)
         for name, output in wanted.items():
-            found[name] = output.read(result)
-            slopes = partials(tape, found[name], [names.index(own_name(x)) for x in by])
-            found |= {slope_name(name, x): slope for x, slope in zip(by, slopes, strict=True)}
-    return merged_program(tape, found)
+            values[name] = output.read(result)
+            slopes = partials(tape, values[name], [names.index(own_name(x)) for x in by])
+            values |= {slope_name(name, x): slope for x, slope in zip(by, slopes, strict=True)}
+    return merged_program(tape, values)
 
 
 def _recorded_by_ball(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:

@@ -4,7 +4,7 @@ Rows are CSV: size and checksum of every chunk of a block, and counts of false t
 of itself, so that a damaged row is not taken for a block. All checksums are bound to the plan, by its digest: what was
 written for another store has other checksums, wherever it is copied to. Links are never followed.
 
-The lock is kept in place of the package ``filelock`` for the reasons in docs/decisions/0012-kept.md.
+The lock is kept in place of the package ``filelock`` for the reasons in docs/decisions/05-engine.md.
 """
 
 from __future__ import annotations

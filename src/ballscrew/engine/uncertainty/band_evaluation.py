@@ -162,12 +162,12 @@ class BandEvaluator:
 
     def law_factors_at(self, place: int) -> list[Values]:
         """By slot the factors of the torque of the laws that are valid at one of the points; 1 is the model's own."""
-        found = [np.array([np.ravel(ratio)[place] for _, ratio in laws]) for laws in self.ratios.values()]
-        return [np.array([1.0, *ratios[np.isfinite(ratios)]]) for ratios in found]
+        values = [np.array([np.ravel(ratio)[place] for _, ratio in laws]) for laws in self.ratios.values()]
+        return [np.array([1.0, *ratios[np.isfinite(ratios)]]) for ratios in values]
 
     def alternatives_at(self, place: int) -> dict[str, list[Alternative]]:
         """The laws that are valid at one of the points, by slot."""
-        found = {
+        values = {
             slot: [
                 Alternative(slot, name, float(np.log(np.ravel(ratio)[place])))
                 for name, ratio in laws
@@ -175,7 +175,7 @@ class BandEvaluator:
             ]
             for slot, laws in self.ratios.items()
         }
-        return {slot: laws for slot, laws in found.items() if laws}
+        return {slot: laws for slot, laws in values.items() if laws}
 
 
 def _as_valid(validity: Mapping[str, Any], of_model: Mapping[str, Any]) -> Any:

@@ -88,15 +88,15 @@ def bands_of(
     within = [share for one in inner for share in tails(one)]
     ends = {name: np.full((5 + len(within), points), np.nan) for name in outputs}
     invalid = np.empty(points)
-    for place, found in enumerate(_samples(group, evaluator, shares, engine, done, recorded=recorded)):
+    for place, result in enumerate(_samples(group, evaluator, shares, engine, done, recorded=recorded)):
         factor = sample_law_factors(evaluator.law_factors_at(place), shares[evaluator.inputs :])
-        both = Sample(**{name: found[name] for name in computed}, factor=factor)
+        both = Sample(**{name: result[name] for name in computed}, factor=factor)
         alone = both._replace(factor=np.ones(1))
         for name, rows in ends.items():
             found_of_both = quantiles(DERIVED_OUTPUTS[name](both), (below, 0.5, above, *within))
             rows[:3, place], rows[5:, place] = found_of_both[:3], found_of_both[3:]
             rows[3:5, place] = quantiles(DERIVED_OUTPUTS[name](alone), (below, above))
-        invalid[place] = 1 - float(np.mean(found["valid"]))
+        invalid[place] = 1 - float(np.mean(result["valid"]))
     central = {name: np.asarray(getattr(evaluator.central, name), dtype=float) for name in outputs}
     return PointBands(
         value={name: np.broadcast_to(value, (points,)) for name, value in central.items()},
@@ -120,9 +120,9 @@ def _samples(
     """The outputs of the samples of each point."""
     points, count = len(group.uncertain), shares.shape[1]
     if not evaluator.inputs:
-        found = evaluator.evaluate(shares, None)
+        result = evaluator.evaluate(shares, None)
         for place in range(points):
-            yield {name: np.broadcast_to(v.reshape(-1, count), (points, count))[place] for name, v in found.items()}
+            yield {name: np.broadcast_to(v.reshape(-1, count), (points, count))[place] for name, v in result.items()}
         return
     at_a_time = min(points, max(1, _AT_A_TIME // count))
     evaluation: Evaluation | None = None
@@ -164,9 +164,9 @@ class _Drawn:
         """The inputs at some of the points, point after point."""
         drawn = [self._inputs(place) for place in places]
         count = self.shares.shape[1]
-        found = {name: np.concatenate([one[name] for one in drawn]) for name in self.sampler.names}
+        result = {name: np.concatenate([one[name] for one in drawn]) for name in self.sampler.names}
         chosen = slice(places.start, places.stop)
-        return found | {name: np.repeat(values[chosen], count) for name, values in self.varying.items()}
+        return result | {name: np.repeat(values[chosen], count) for name, values in self.varying.items()}
 
     def _inputs(self, place: int) -> dict[str, Values]:
         """The inputs drawn for a point; those of the point before where they have the same distributions."""

@@ -231,9 +231,9 @@ def band(
     raise_if_any([*faults, *faults_of_inputs(subject, distributions, joint)])
     evaluator = BandEvaluator.of(subject, distributions, joint, point, alternatives, engine, evaluated_outputs(outputs))
     shares = sample_probabilities(evaluator.dimensions, count, seed)
-    found = evaluator.evaluate(shares, done)
+    result = evaluator.evaluate(shares, done)
     factor = sample_law_factors(evaluator.law_factors_at(0), shares[evaluator.inputs :])
-    both = Sample(**{name: found[name] for name in evaluated_outputs(outputs)}, factor=factor)
+    both = Sample(**{name: result[name] for name in evaluated_outputs(outputs)}, factor=factor)
     centre = Sample(
         **{name: np.full(1, float(getattr(evaluator.central, name))) for name in evaluated_outputs(outputs)}
     )
@@ -248,7 +248,7 @@ def band(
     }
     numbers = np.isfinite(both.torque)
     locks = directions.locks_itself(both.ideal_torque, both.torque)
-    reasons = {name.removeprefix(VALIDITY): 1 - float(np.mean(found[name])) for name in evaluator.masks}
+    reasons = {name.removeprefix(VALIDITY): 1 - float(np.mean(result[name])) for name in evaluator.masks}
     kept = {
         **evaluator.sampler.inputs_at(shares[: evaluator.inputs]),
         **{name: DERIVED_OUTPUTS[name](both) for name in outputs},
@@ -260,9 +260,9 @@ def band(
         outputs=bands,
         alternatives=evaluator.alternatives_at(0),
         self_locking_share=float(np.mean(locks[numbers])) if np.any(numbers) else float("nan"),
-        invalid_share=1 - float(np.mean(found["valid"])),
+        invalid_share=1 - float(np.mean(result["valid"])),
         reasons={reason: share for reason, share in reasons.items() if share > 0},
-        narrowing=_narrowing(evaluator, outputs[0], found, shares, level) if outputs else None,
+        narrowing=_narrowing(evaluator, outputs[0], result, shares, level) if outputs else None,
         samples=kept if keep_samples else None,
     )
 
@@ -273,7 +273,7 @@ _CLASSES, _IN_A_CLASS = 32, 128
 
 
 def _narrowing(
-    evaluator: BandEvaluator, output: str, found: Mapping[str, NDArray[Any]], shares: Values, level: float
+    evaluator: BandEvaluator, output: str, result: Mapping[str, NDArray[Any]], shares: Values, level: float
 ) -> Narrowing | None:
     """The narrowest of the bands that are left when one cause is known, and is as the model has it.
 
@@ -284,7 +284,7 @@ def _narrowing(
     if output not in POSITIVE or classes < 2:
         return None
     laws = evaluator.law_factors_at(0)
-    drawn = Sample(**{name: found[name] for name in Sample._fields if name in found})
+    drawn = Sample(**{name: result[name] for name in Sample._fields if name in result})
     of_laws = shares[evaluator.inputs :]
     values = DERIVED_OUTPUTS[output](drawn._replace(factor=sample_law_factors(laws, of_laws)))
     if not np.all(values > 0):
@@ -329,10 +329,10 @@ def _band_over(
     values |= axes.points_at(np.arange(axes.total))
     group = PointGroup(axes.subject, alternatives, values, [alone] * axes.total, [joint] * axes.total)
     told = _told(done, axes.total * count)
-    found = bands_of(group, axes.outputs, count=count, seed=seed, level=level, engine=engine, done=told)
-    ends = {name: found.both[name] for name in axes.outputs}
-    dataset = axes.dataset({name: np.array(found.value[name]) for name in axes.outputs})
-    return with_ends(dataset, ends, found.invalid_share, level=level, count=count, seed=seed)
+    bands = bands_of(group, axes.outputs, count=count, seed=seed, level=level, engine=engine, done=told)
+    ends = {name: bands.both[name] for name in axes.outputs}
+    dataset = axes.dataset({name: np.array(bands.value[name]) for name in axes.outputs})
+    return with_ends(dataset, ends, bands.invalid_share, level=level, count=count, seed=seed)
 
 
 def with_ends(
@@ -348,19 +348,19 @@ def with_ends(
 
     ``invalid_share`` is, at each point, the share of the samples that lie outside the validity of the model.
     """
-    found = dict[str, Any]()
+    result = dict[str, Any]()
     for name, both in ends.items():
         variable = dataset[name]
         for end, values in zip(ENDS, both, strict=True):
             words = f"{variable.attrs['long_name']}, {end} end of the band"
             attributes = {**variable.attrs, "long_name": words}
-            found[f"{name}_{end}"] = (variable.dims, np.asarray(values).reshape(variable.shape), attributes)
+            result[f"{name}_{end}"] = (variable.dims, np.asarray(values).reshape(variable.shape), attributes)
     any_of_them = dataset[next(iter(ends))]
     words = "share of the samples outside the validity of the model"
-    found["invalid_share"] = (
+    result["invalid_share"] = (
         any_of_them.dims, np.asarray(invalid_share).reshape(any_of_them.shape), {"units": "1", "long_name": words}
     )  # fmt: skip
-    return dataset.assign(found).assign_attrs(band_level=level, band_samples=count, band_seed=seed)
+    return dataset.assign(result).assign_attrs(band_level=level, band_samples=count, band_seed=seed)
 
 
 def inner_end(name: str, end: str, level: float) -> str:
@@ -412,9 +412,9 @@ def band_along(
     values[along] = np.asarray(points, dtype=float)
     group = PointGroup(subject, alternatives, values, [distributions] * number, [joint] * number)
     name, told = "screw_torque", _told(done, number * count)
-    found = bands_of(group, [name], count=count, seed=seed, level=level, engine=engine, done=told)
+    bands = bands_of(group, [name], count=count, seed=seed, level=level, engine=engine, done=told)
     return BandCurve(
-        along, values[along], found.value[name], found.median[name], found.both[name], found.parameters[name], count
+        along, values[along], bands.value[name], bands.median[name], bands.both[name], bands.parameters[name], count
     )
 
 

@@ -17,8 +17,8 @@ from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, 
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import preload_growth
 
 #: Half the width of the interval that holds 95 % of a normal distribution, in standard deviations.
@@ -56,19 +56,19 @@ class DefaultUncertainty:
         if above <= 0:
             return None
         if self.half_width is not None:
-            found: Distribution = Normal(value, self.half_width / NORMAL_95)
+            distribution: Distribution = Normal(value, self.half_width / NORMAL_95)
         elif self.share is not None:
-            found = Normal(value, self.share * above / NORMAL_95)
+            distribution = Normal(value, self.share * above / NORMAL_95)
         elif self.between is not None:
             low, high = self.between
             known = Normal(value, NEAR * value / NORMAL_95)
-            found = Triangular(low, value, high) if low < value < high else known
+            distribution = Triangular(low, value, high) if low < value < high else known
         elif self.limits is not None:
-            found = Uniform(value * (1 - self.limits), value * (1 + self.limits))
+            distribution = Uniform(value * (1 - self.limits), value * (1 + self.limits))
         else:
             assert self.factor is not None, self.name
-            found = LogNormal(value, math.exp(math.log(self.factor) / NORMAL_95))
-        return within(found, info)
+            distribution = LogNormal(value, math.exp(math.log(self.factor) / NORMAL_95))
+        return within(distribution, info)
 
 
 @functools.cache
@@ -101,7 +101,7 @@ def default_distributions(
     """
     inputs, known = inputs_of(model, screw, lubricant), default_uncertainties()
     parts = {"screw": screw, "lubricant": lubricant, "model": model, "nut": screw.nut}
-    found: dict[str, tuple[Distribution, DefaultUncertainty]] = {}
+    result: dict[str, tuple[Distribution, DefaultUncertainty]] = {}
     for name in known:
         if name not in inputs or name in given or name in exact or not _counts(name, model, lubricant, exact):
             continue
@@ -117,8 +117,8 @@ def default_distributions(
             uncertainty = _of_oversize_balls(uncertainty, known["oversize"], screw, float(value))
         distribution = uncertainty.about(float(value), quantity.info)
         if distribution is not None:
-            found[name] = distribution, uncertainty
-    return found
+            result[name] = distribution, uncertainty
+    return result
 
 
 def _of_oversize_balls(

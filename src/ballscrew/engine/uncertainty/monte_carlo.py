@@ -161,17 +161,17 @@ _STATISTICS = {
 }
 
 
-def _numbers(name: str, attributes: Mapping[str, str], found: Statistics) -> dict[str, tuple[Any, ...]]:
+def _numbers(name: str, attributes: Mapping[str, str], statistics: Statistics) -> dict[str, tuple[Any, ...]]:
     """The variables of an output that is a number."""
     meaning = attributes["long_name"]
     variables: dict[str, tuple[Any, ...]] = {}
     for statistic, words in _STATISTICS.items():
         of_this = {**attributes, "long_name": f"{words} {meaning}", "cell_methods": f"realization: {statistic}"}
-        variables[f"{name}_{statistic}"] = ((), getattr(found, statistic), of_this)
+        variables[f"{name}_{statistic}"] = ((), getattr(statistics, statistic), of_this)
     of_quantiles = {**attributes, "long_name": f"quantiles of {meaning}"}
     of_missing = {"long_name": f"share of samples without a value of {meaning}", "units": "1"}
-    variables[f"{name}_quantiles"] = ("quantile", found.quantiles, of_quantiles)
-    variables[f"{name}_missing_share"] = ((), found.missing_share, of_missing)
+    variables[f"{name}_quantiles"] = ("quantile", statistics.quantiles, of_quantiles)
+    variables[f"{name}_missing_share"] = ((), statistics.missing_share, of_missing)
     return variables
 
 

@@ -65,10 +65,10 @@ class JointParts:
 
     def quantiles(self, shares: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
         """The values of all groups for independent shares."""
-        found: dict[str, NDArray[np.float64]] = {}
+        quantiles: dict[str, NDArray[np.float64]] = {}
         for part in self.parts:
-            found |= part.quantiles(shares[len(found) : len(found) + len(part.names)])
-        return found
+            quantiles |= part.quantiles(shares[len(quantiles) : len(quantiles) + len(part.names)])
+        return quantiles
 
 
 Joint: TypeAlias = JointNormal | JointSamples | JointParts

@@ -183,7 +183,7 @@ def sensitivity(
     estimates: Sequence[Sequence[Estimate]]
     if method == "sobol":
         of_variance = sobol_indices(function, len(names), count, seed, level)
-        estimates, found = (of_variance.total, of_variance.first_order), of_variance
+        estimates, result = (of_variance.total, of_variance.first_order), of_variance
         deviation = of_variance.deviation
         explained_variance = tuple(
             ExplainedVariance(tuple(names[i] for i in known), left) for known, left in of_variance.known
@@ -191,7 +191,7 @@ def sensitivity(
     else:
         in_deviations = functools.partial(_in_deviations, sampler, _deviations(sampler))
         screened = elementary_effects(function, in_deviations, len(names), count, seed, level)
-        estimates, found = (screened.mean_absolute, screened.deviation), screened
+        estimates, result = (screened.mean_absolute, screened.deviation), screened
         deviation, explained_variance = math.nan, ()
     by_name = [dict(zip(names, of_measure, strict=True)) for of_measure in estimates]
     return Sensitivity(
@@ -200,14 +200,14 @@ def sensitivity(
         quantity=known_outputs(screw.nut)[output].quantity,
         inputs=_ranked(by_name[0]),
         measures=dict(zip(MEASURES[method], by_name, strict=True)),
-        mean=found.mean,
+        mean=result.mean,
         deviation=deviation,
         explained_variance=explained_variance,
         level=level,
         samples=count,
         seed=seed,
-        evaluations=found.evaluations,
-        left_out=found.left_out,
+        evaluations=result.evaluations,
+        left_out=result.left_out,
     )
 
 
@@ -222,11 +222,11 @@ def _faults(
 ) -> list[Fault]:
     """Faults of the arguments, except for the values of inputs."""
     known, wanted = subject.inputs, known_outputs(subject.nut)
-    found = (
+    result = (
         distribution_fault(f"sensitivity.distributions.{name}", name, given, known, "leave it out")
         for name, given in uncertain.items()
     )
-    faults = [fault for fault in found if fault is not None]
+    faults = [fault for fault in result if fault is not None]
     if not uncertain:
         remedy = 'give a distribution to an input: {"viscosity": LogNormal(0.1, 1.3)}'
         faults.append(Fault("sensitivity.distributions", "no input is uncertain", "", remedy))

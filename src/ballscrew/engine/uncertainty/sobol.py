@@ -98,21 +98,21 @@ def sobol_indices(function: Function, inputs: int, samples: int, seed: int = 0, 
         return SobolIndices(none, none, mean, 0.0, (), values.size, left_out)
     # the mean in place of what is left out counts for nothing in any sum about the mean
     centred = np.where(kept, values - mean, 0.0)
-    found = _by_scipy(centred)
-    large = found[0] > LARGE_INDEX
-    found[0, large] = 1 - np.mean((centred[1] - centred[2:][large]) ** 2, axis=-1) / (2 * np.var(centred[:2]))
+    result = _by_scipy(centred)
+    large = result[0] > LARGE_INDEX
+    result[0, large] = 1 - np.mean((centred[1] - centred[2:][large]) ** 2, axis=-1) / (2 * np.var(centred[:2]))
     ends = np.quantile(_resampled(centred, large, seed), [(1 - level) / 2, (1 + level) / 2], axis=0)
-    order = [int(i) for i in np.argsort(-found[0], kind="stable") if found[1][i] > 0]
+    order = [int(i) for i in np.argsort(-result[0], kind="stable") if result[1][i] > 0]
     if len(order) == 1:  # all variance is its own: nothing is to be estimated
-        found[:, order] = ends[:, :, order] = 1.0
+        result[:, order] = ends[:, :, order] = 1.0
     first_order, total = (
-        [Estimate(*map(float, row)) for row in zip(found[k], *ends[:, k], strict=True)] for k in range(2)
+        [Estimate(*map(float, row)) for row in zip(result[k], *ends[:, k], strict=True)] for k in range(2)
     )
-    enough = int(np.searchsorted(np.cumsum(np.maximum(found[0][order], 0)), EXPLAINED)) + 1
+    enough = int(np.searchsorted(np.cumsum(np.maximum(result[0][order], 0)), EXPLAINED)) + 1
     sets = [order[: k + 1] for k in range(min(enough, len(order)))]
     asked = [which for which in sets[1:] if len(which) < len(order)]
     frozen = function(np.concatenate([_frozen(a, b, which) for which in asked], axis=1)) if asked else np.empty(0)
-    left = [np.sqrt(np.clip(1 - found[0][order[0]], 0, 1))] if order else []
+    left = [np.sqrt(np.clip(1 - result[0][order[0]], 0, 1))] if order else []
     for row in frozen.reshape(len(asked), samples):
         here = kept & np.isfinite(row)
         left.append(np.sqrt(np.mean((values[1, here] - row[here]) ** 2) / 2) / deviation)
@@ -165,8 +165,8 @@ def _by_scipy(centred: NDArray[np.float64]) -> NDArray[np.float64]:
     # an input without effect at the end: of one input alone SciPy makes scalars, which it then fails on
     pages = np.concatenate([centred[2:], centred[:1]])[:, np.newaxis]
     values: Any = {"f_A": centred[:1], "f_B": centred[1:2], "f_AB": pages}
-    found = stats.sobol_indices(func=values, n=centred.shape[1])
-    return np.array([found.first_order[:-1], found.total_order[:-1]])
+    result = stats.sobol_indices(func=values, n=centred.shape[1])
+    return np.array([result.first_order[:-1], result.total_order[:-1]])
 
 
 def _resampled(centred: NDArray[np.float64], large: NDArray[np.bool_], seed: int) -> NDArray[np.float64]:

@@ -84,8 +84,8 @@ def stribeck(conditions: Conditions, torque: Vector) -> Baseline:
         friction = np.stack([np.ones_like(n), rows.axial_load, np.exp(-n / speed), n], axis=1)
         return np.hstack([rows.weights[1][:, np.newaxis] * friction, rows.sensor])
 
-    def torque_of(rows: Conditions, speed: float, found: Vector) -> Vector:
-        return rows.weights[0] * rows.ideal_torque + columns(rows, speed) @ found
+    def torque_of(rows: Conditions, speed: float, vector: Vector) -> Vector:
+        return rows.weights[0] * rows.ideal_torque + columns(rows, speed) @ vector
 
     rest = torque - conditions.weights[0] * conditions.ideal_torque
     # a search over so many speeds needs no more rows than these
@@ -94,10 +94,10 @@ def stribeck(conditions: Conditions, torque: Vector) -> Baseline:
     searched, values = (conditions, rest) if some.all() else (conditions.rows(some), rest[some])
     tried = [(first_loss(columns(searched, speed), values), float(speed)) for speed in STRIBECK_SHARES * fastest]
     speed = min(tried)[1]
-    found, _ = robust_linear(columns(conditions, speed), rest)
+    result, _ = robust_linear(columns(conditions, speed), rest)
     names = ("coulomb_torque", "torque_per_load", "stribeck_torque", "viscous_torque_coefficient")
-    coefficients = {**dict(zip(names, found.tolist(), strict=False)), "stribeck_speed": speed}
-    return Baseline(STRIBECK, coefficients, found.size + 1, lambda rows: torque_of(rows, speed, found))
+    coefficients = {**dict(zip(names, result.tolist(), strict=False)), "stribeck_speed": speed}
+    return Baseline(STRIBECK, coefficients, result.size + 1, lambda rows: torque_of(rows, speed, result))
 
 
 def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
@@ -112,13 +112,13 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
         return np.hstack([pair, rows.sensor])
 
     rest = torque - conditions.weights[0] * conditions.ideal_torque
-    found, _ = robust_linear(columns(conditions), rest)
-    coefficients = {"efficiency": 1 / (1 + found[0]), "back_driving_efficiency": 1 - found[1]}
+    result, _ = robust_linear(columns(conditions), rest)
+    coefficients = {"efficiency": 1 / (1 + result[0]), "back_driving_efficiency": 1 - result[1]}
     return Baseline(
         EFFICIENCY_PAIR,
         {name: float(value) for name, value in coefficients.items()},
-        found.size,
-        lambda rows: rows.weights[0] * rows.ideal_torque + columns(rows) @ found,
+        result.size,
+        lambda rows: rows.weights[0] * rows.ideal_torque + columns(rows) @ result,
     )
 
 
@@ -128,8 +128,8 @@ def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
     With them the root of the first loss, in the unit of the values. Iteratively reweighted least squares.
     """
     scaled, scale = _scaled(columns)
-    found, scatter, loss = _by_first_loss(scaled, values)
-    return _reweighted(scaled, values, found, lambda _: scatter, biweight)[0] / scale, loss
+    result, scatter, loss = _by_first_loss(scaled, values)
+    return _reweighted(scaled, values, result, lambda _: scatter, biweight)[0] / scale, loss
 
 
 def first_loss(columns: Vector, values: Vector) -> float:
@@ -146,29 +146,29 @@ def _scaled(columns: Vector) -> tuple[Vector, Vector]:
 def _by_first_loss(scaled: Vector, values: Vector) -> tuple[Vector, float, float]:
     """Coefficients by the first loss, the scatter that they leave, and the root of the loss."""
     scatter = functools.partial(scatter_above, minimum_scatter(values))
-    found, residuals = _reweighted(scaled, values, _by_least_squares(scaled, values), scatter, pseudo_huber)
+    result, residuals = _reweighted(scaled, values, _by_least_squares(scaled, values), scatter, pseudo_huber)
     left = scatter(residuals)
     # the root, for a square of the scatter may be beyond all floats
-    return found, left, left * float(np.sqrt(np.sum(pseudo_huber((residuals / left) ** 2)[0])))
+    return result, left, left * float(np.sqrt(np.sum(pseudo_huber((residuals / left) ** 2)[0])))
 
 
 def _by_least_squares(columns: Vector, values: Vector) -> Vector:
-    found: Any = np.linalg.lstsq(columns, values, rcond=None)[0]  # NumPy's types leave the precision open
-    return found
+    vector: Any = np.linalg.lstsq(columns, values, rcond=None)[0]  # NumPy's types leave the precision open
+    return vector
 
 
 def _reweighted(
-    scaled: Vector, values: Vector, found: Vector, scatter: Callable[[Vector], float], loss: Loss
+    scaled: Vector, values: Vector, vector: Vector, scatter: Callable[[Vector], float], loss: Loss
 ) -> tuple[Vector, Vector]:
     """Coefficients by a loss of residuals in units of their scatter, and the residuals."""
-    residuals = scaled @ found - values
+    residuals = scaled @ vector - values
     for _ in range(_MAXIMUM_ITERATIONS):
         root = np.sqrt(loss((residuals / scatter(residuals)) ** 2)[1])
-        before, found = found, _by_least_squares(root[:, np.newaxis] * scaled, root * values)
-        residuals = scaled @ found - values
-        if np.max(np.abs(found - before)) <= _TOLERANCE * np.max(np.abs(found), initial=1e-300):
+        before, vector = vector, _by_least_squares(root[:, np.newaxis] * scaled, root * values)
+        residuals = scaled @ vector - values
+        if np.max(np.abs(vector - before)) <= _TOLERANCE * np.max(np.abs(vector), initial=1e-300):
             break
-    return found, residuals
+    return vector, residuals
 
 
 ALL: Sequence[Callable[[Conditions, Vector], Baseline]] = (stribeck, efficiency_pair)

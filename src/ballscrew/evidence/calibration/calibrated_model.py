@@ -32,8 +32,8 @@ class CalibratedModel(FitResult):
         """
         oil = self.lubricant if temperature is None else self.lubricant.at(temperature)
         speed = np.abs(np.asarray(screw_speed, dtype=float))
-        found = self.model(self.screw, oil, axial_load=np.asarray(axial_load, dtype=float), screw_speed=speed)
-        return found.screw_torque
+        model = self.model(self.screw, oil, axial_load=np.asarray(axial_load, dtype=float), screw_speed=speed)
+        return model.screw_torque
 
     @accepts_units("band")
     def band(

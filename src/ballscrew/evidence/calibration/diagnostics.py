@@ -41,26 +41,26 @@ LOAD_SIGN_SHARE, SOME_ROWS = 0.01, 200
 MAXIMUM_RATIO = 100.0
 
 
-def warning_records(found: FitResult) -> list[Record]:
+def warning_records(fit_result: FitResult) -> list[Record]:
     """Reasons not to trust the estimates, the gravest first."""
-    judged = {record.subject.rpartition(".")[2] for record in found.verdict_records}
-    odd = [one for one in found.subject.implausible({}) if one.subject.rpartition(".")[2] not in judged]
+    judged = {record.subject.rpartition(".")[2] for record in fit_result.verdict_records}
+    odd = [one for one in fit_result.subject.implausible({}) if one.subject.rpartition(".")[2] not in judged]
     return [
         *odd,
-        *_starved(found),
-        *_not_identified(found),
-        *_of_bounds(found),
-        *_of_priors(found),
-        *_of_preload(found),
-        *_of_rows(found),
-        *_trends(found),
+        *_starved(fit_result),
+        *_not_identified(fit_result),
+        *_of_bounds(fit_result),
+        *_of_priors(fit_result),
+        *_of_preload(fit_result),
+        *_of_rows(fit_result),
+        *_trends(fit_result),
     ]
 
 
-def _starved(found: FitResult) -> list[Record]:
+def _starved(fit_result: FitResult) -> list[Record]:
     """Rows of the log at which the fitted model is starved of oil: a full bath would have asked for other numbers."""
-    rows = {name: values for name, values in found.response.points.items() if name in _OF_ROWS}
-    return found.subject.starvation(rows, _OF_LOG)
+    rows = {name: values for name, values in fit_result.response.points.items() if name in _OF_ROWS}
+    return fit_result.subject.starvation(rows, _OF_LOG)
 
 
 def _warning(
@@ -96,20 +96,22 @@ def _value(estimate: Estimate) -> str:
     return f"{estimate.value:.4g}"
 
 
-def _not_identified(found: FitResult) -> list[Record]:
+def _not_identified(fit_result: FitResult) -> list[Record]:
     """Numbers that the log does not identify; those at a bound, and large residuals, have records of their own."""
-    without = [name for name, e in found.estimates.items() if not e.identified and not e.at_bound and not e.one_sided]
+    without = [
+        name for name, e in fit_result.estimates.items() if not e.identified and not e.at_bound and not e.one_sided
+    ]
     records: list[Record] = []
-    for combination in found.identifiability.combinations:
+    for combination in fit_result.identifiability.combinations:
         if combination.identified:
             continue
         names = [name for name, power in combination.powers.items() if abs(power) >= 0.05]
         without = [name for name in without if name not in names]
-        with_prior = [name for name in names if found.estimates[name].identified]
+        with_prior = [name for name in names if fit_result.estimates[name].identified]
         inputs = " and ".join(names)
         if len(names) == 1:
             (name,) = names
-            flat = f"near {_value(found.estimates[name])} the torques of this log hardly depend on it"
+            flat = f"near {_value(fit_result.estimates[name])} the torques of this log hardly depend on it"
             if with_prior:
                 text = f"{name} is known only together with its prior: {flat}"
                 records.append(_warning("confounded", name, text))
@@ -127,7 +129,7 @@ def _not_identified(found: FitResult) -> list[Record]:
                 f"{product_of_powers(combination.powers)}; fix one of them, give one a prior, or measure elsewhere"
             )
             records.append(_warning("confounded", ",".join(names), text))
-    if CONSTANT_TORQUE.name in without and not found.problem.has_torque_offset:
+    if CONSTANT_TORQUE.name in without and not fit_result.problem.has_torque_offset:
         without.remove(CONSTANT_TORQUE.name)
         text = (
             f"{CONSTANT_TORQUE.name} is not identified: friction of one sign cannot be told from a zero error of the "
@@ -135,15 +137,15 @@ def _not_identified(found: FitResult) -> list[Record]:
         )
         records.append(_warning("one_direction", CONSTANT_TORQUE.name, text))
     # those of few rows, and those that stand on their prior, have records of their own
-    without = [name for name in without if found.estimates[name].prior_share <= PRIOR_SHARE]
-    imprecise = [] if found.has_few_rows else without
+    without = [name for name in without if fit_result.estimates[name].prior_share <= PRIOR_SHARE]
+    imprecise = [] if fit_result.has_few_rows else without
     imprecisely = "is not identified: it is known to less than half of its size"
     return records + [_warning("imprecise", name, f"{name} {imprecisely}") for name in imprecise]
 
 
-def _of_bounds(found: FitResult) -> list[Record]:
-    one_sided = [e for e in found.estimates.values() if e.one_sided and not e.at_bound]
-    at_bound = [e for e in found.estimates.values() if e.at_bound]
+def _of_bounds(fit_result: FitResult) -> list[Record]:
+    one_sided = [e for e in fit_result.estimates.values() if e.one_sided and not e.at_bound]
+    at_bound = [e for e in fit_result.estimates.values() if e.at_bound]
     records: list[Record] = []
     for e in one_sided:
         text = f"{e.name} is bounded on one side only: beyond {_value(e)} the torques hardly change"
@@ -154,9 +156,9 @@ def _of_bounds(found: FitResult) -> list[Record]:
     return records
 
 
-def _of_priors(found: FitResult) -> list[Record]:
+def _of_priors(fit_result: FitResult) -> list[Record]:
     records: list[Record] = []
-    for e in found.estimates.values():
+    for e in fit_result.estimates.values():
         if e.prior_share > PRIOR_SHARE:
             by_prior = "is known by its prior, too" if e.identified else "is not identified, it stands on its prior"
             text = f"{e.name} {by_prior}: the log leaves {units.percent(e.prior_share)} of the prior's variance"
@@ -164,39 +166,45 @@ def _of_priors(found: FitResult) -> list[Record]:
     return records
 
 
-def _of_preload(found: FitResult) -> list[Record]:
+def _of_preload(fit_result: FitResult) -> list[Record]:
     """Rows at which the load has lifted the relieved balls off, where the preload was fitted."""
-    if not {"preload", "nut.preload", "oversize", "nut.oversize"} & set(found.response.names):
+    if not {"preload", "nut.preload", "oversize", "nut.oversize"} & set(fit_result.response.names):
         return []
-    loads = np.asarray(found.rows.log.axial_load)
-    limits = np.asarray(loads_of(found.screw, np.where(loads < 0, -1.0, 1.0)).lift_off_load)
+    loads = np.asarray(fit_result.rows.log.axial_load)
+    limits = np.asarray(loads_of(fit_result.screw, np.where(loads < 0, -1.0, 1.0)).lift_off_load)
     most, lifted = float(np.min(limits)), int(np.count_nonzero(np.abs(loads) >= limits))
     if not lifted:
         return []
     text = (
-        f"at {lifted} of {len(found.rows.log)} rows the load lifts the relieved balls off (from "
+        f"at {lifted} of {len(fit_result.rows.log)} rows the load lifts the relieved balls off (from "
         f"{units.in_unit(most, 'N')} on): those rows tell nothing of the preload"
     )
     return [_warning("lift_off", "axial_load", text, most, unit="N")]
 
 
-def _of_rows(found: FitResult) -> list[Record]:
-    return [*_of_scatter(found), *_of_number(found), *_of_baselines(found), *_of_oil(found), *_of_load_signs(found)]
+def _of_rows(fit_result: FitResult) -> list[Record]:
+    return [
+        *_of_scatter(fit_result),
+        *_of_number(fit_result),
+        *_of_baselines(fit_result),
+        *_of_oil(fit_result),
+        *_of_load_signs(fit_result),
+    ]
 
 
-def _of_scatter(found: FitResult) -> list[Record]:
+def _of_scatter(fit_result: FitResult) -> list[Record]:
     """A fit that did not end, or that misses the rows by much."""
     records: list[Record] = []
-    if not found.solution.converged:
+    if not fit_result.solution.converged:
         text = "the fit did not come to rest: its numbers are not to be used"
         records.append(_warning("not_converged", "estimates", text))
-    typical = float(np.median(np.abs(found.rows.friction)))
-    scatter = float(np.median(found.rows.scatter))
-    if scatter > typical or found.solution.noise.share > MAXIMUM_NOISE_SHARE:
+    typical = float(np.median(np.abs(fit_result.rows.friction)))
+    scatter = float(np.median(fit_result.rows.scatter))
+    if scatter > typical or fit_result.solution.noise.share > MAXIMUM_NOISE_SHARE:
         off, friction = (units.in_unit(torque, "N m", 2) for torque in (scatter, typical))
         text = f"rows miss by {off}, where friction is {friction}: look at their signs, units and conditions"
         records.append(_warning("scatter", "torque", text, scatter, typical, "N m"))
-    outlying = float(np.mean(found.rows.outlying))
+    outlying = float(np.mean(fit_result.rows.outlying))
     if outlying > MANY_OUTLIERS:
         share = units.percent(outlying)
         text = f"{share} of the rows lie far from any fit: look at their signs, units and conditions"
@@ -204,28 +212,28 @@ def _of_scatter(found: FitResult) -> list[Record]:
     return records
 
 
-def _of_number(found: FitResult) -> list[Record]:
+def _of_number(fit_result: FitResult) -> list[Record]:
     """Too few rows, or rows that are not independent."""
     records: list[Record] = []
-    if found.has_few_rows:
+    if fit_result.has_few_rows:
         text = "too few operating points for so many numbers: no estimate has an error; measure at more, or free fewer"
-        records.append(_warning("too_few", "rows", text, float(len(found.rows.log))))
-    if autocorrelation_lag(found.solution.influence):
+        records.append(_warning("too_few", "rows", text, float(len(fit_result.rows.log))))
+    if autocorrelation_lag(fit_result.solution.influence):
         text = "residuals that follow each other are alike: the errors are larger for it"
         records.append(_warning("autocorrelated", "residuals", text))
-    if not found.rows.held_out.any():
+    if not fit_result.rows.held_out.any():
         text = "too few rows to hold any out: how well the model predicts is not known"
-        records.append(_warning("no_holdout", "holdout_rms", text, float(len(found.rows.log))))
+        records.append(_warning("no_holdout", "holdout_rms", text, float(len(fit_result.rows.log))))
     return records
 
 
-def _of_baselines(found: FitResult) -> list[Record]:
+def _of_baselines(fit_result: FitResult) -> list[Record]:
     """A description without physics that is nearer to the log than the model."""
-    rms = {score.description: score.fitted for score in found.scores}
+    rms = {score.description: score.fitted for score in fit_result.scores}
     own = rms.pop(CALIBRATED)
     rms.pop(AS_GIVEN)
     best = min(rms, key=lambda description: rms[description])
-    if not (rms[best] < BASELINE_RATIO * own and own > minimum_scatter(found.rows.log.torque)):
+    if not (rms[best] < BASELINE_RATIO * own and own > minimum_scatter(fit_result.rows.log.torque)):
         return []
     ratio = own / rms[best] if rms[best] * MAXIMUM_RATIO > own else MAXIMUM_RATIO
     times = units.fixed(ratio, 1) if ratio < MAXIMUM_RATIO else f"more than {units.fixed(MAXIMUM_RATIO)}"
@@ -236,15 +244,15 @@ def _of_baselines(found: FitResult) -> list[Record]:
     return [_warning("baseline_better", "residual_rms", text, own, rms[best], "N m")]
 
 
-def _of_oil(found: FitResult) -> list[Record]:
+def _of_oil(fit_result: FitResult) -> list[Record]:
     """A viscosity that is fitted to a log with temperatures, and temperatures that change nothing."""
-    if found.rows.log.temperature is None:
+    if fit_result.rows.log.temperature is None:
         return []
     records: list[Record] = []
-    if "viscosity" in found.response.names:
+    if "viscosity" in fit_result.response.names:
         text = "viscosity is free: it counts for the whole log, whatever the temperatures"
         records.append(_warning("viscosity_free", "viscosity", text))
-    if not found.lubricant.follows_temperature:
+    if not fit_result.lubricant.follows_temperature:
         text = (
             "the temperatures of the log are not used: the oil has a viscosity, and no sheet or grade that changes it"
         )
@@ -252,17 +260,17 @@ def _of_oil(found: FitResult) -> list[Record]:
     return records
 
 
-def _of_load_signs(found: FitResult) -> list[Record]:
+def _of_load_signs(fit_result: FitResult) -> list[Record]:
     """Loads that may be sizes alone, in a nut that rubs otherwise under the opposite load."""
-    load = found.rows.log.axial_load
-    if found.rows.convention.ideal != "absent" or np.any(load < 0):
+    load = fit_result.rows.log.axial_load
+    if fit_result.rows.convention.ideal != "absent" or np.any(load < 0):
         return []
     some = np.unique(np.linspace(0, load.size - 1, min(load.size, SOME_ROWS)).astype(np.int64))
-    points = {name: values[some] for name, values in found.response.points.items()}
-    torques, _ = found.response.at({**points, "axial_load": -points["axial_load"]})(
-        found.solution.values[: len(found.response.names)]
+    points = {name: values[some] for name, values in fit_result.response.points.items()}
+    torques, _ = fit_result.response.at({**points, "axial_load": -points["axial_load"]})(
+        fit_result.solution.values[: len(fit_result.response.names)]
     )
-    friction = found.rows.friction[some]
+    friction = fit_result.rows.friction[some]
     share = float(np.median(np.abs(torques[1] - friction)) / np.median(np.abs(friction)))
     if not share > LOAD_SIGN_SHARE:
         return []
@@ -273,11 +281,11 @@ def _of_load_signs(found: FitResult) -> list[Record]:
     return [_warning("load_sign", "axial_load", text, share, LOAD_SIGN_SHARE)]
 
 
-def _trends(found: FitResult) -> list[Record]:
+def _trends(fit_result: FitResult) -> list[Record]:
     """Quantities on which the residuals depend: the model lacks an effect."""
-    friction = float(np.median(np.abs(found.rows.friction)))
+    friction = float(np.median(np.abs(fit_result.rows.friction)))
     records: list[Record] = []
-    for name, trend in found.rows.trends.items():
+    for name, trend in fit_result.rows.trends.items():
         worst = int(np.argmax(np.abs(trend.means)))
         off = float(trend.means[worst])
         if abs(off) > max(TREND_ERRORS * trend.errors[worst], TREND_SHARE * friction):

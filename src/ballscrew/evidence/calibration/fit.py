@@ -44,9 +44,9 @@ from ballscrew.evidence.calibration.torque_conventions import TorqueConvention, 
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
-from ballscrew.physics.components.nut_losses import ConstantTorque
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.nut_losses import ConstantTorque
 from ballscrew.physics.solvers.load_distribution import ball_loads
 
 #: The loss of a nut that a fitted constant torque becomes.
@@ -144,7 +144,7 @@ def fit(
     warmth = _temperature_error(half_width, made, problem.response.points, fitted, uncertainty)
     total = uncertainty.plus(warmth.covariance)
     estimates = _estimates(fitted, one_sided, total, uncertainty, degrees_of_freedom)
-    found = CalibratedModel(
+    calibrated_model = CalibratedModel(
         subject=made,
         estimates={name: estimates[name] for name in problem.names},
         sensor={name: estimate for name, estimate in estimates.items() if name not in problem.names},
@@ -167,8 +167,10 @@ def fit(
             "reading": convention.description,
         },
     )
-    found = dataclasses.replace(found, verdict_records=tuple(verdict_records(found, dynamic_load_rating)))
-    return dataclasses.replace(found, warning_records=warning_records(found))
+    calibrated_model = dataclasses.replace(
+        calibrated_model, verdict_records=tuple(verdict_records(calibrated_model, dynamic_load_rating))
+    )
+    return dataclasses.replace(calibrated_model, warning_records=warning_records(calibrated_model))
 
 
 def _asked(subject: Configuration, free: Sequence[str]) -> dict[str, str]:
@@ -301,7 +303,7 @@ class _Fitted:
 def _uncertainty(fitted: _Fitted) -> tuple[Uncertainty, int]:
     """The uncertainty by the rows, of few rows at least that of the jackknife, and its degrees of freedom."""
     solution, log, held_out = fitted.solution, fitted.log, fitted.held_out
-    found = Uncertainty.of(solution, fitted.scale, fitted.slopes_of_priors)
+    uncertainty = Uncertainty.of(solution, fitted.scale, fitted.slopes_of_priors)
     degrees_of_freedom = solution.residuals.size - solution.values.size
     if solution.residuals.size < JACKKNIFE_ROWS:
         groups = _groups(log, held_out, solution.values.size)
@@ -309,11 +311,11 @@ def _uncertainty(fitted: _Fitted) -> tuple[Uncertainty, int]:
         if degrees_of_freedom >= MINIMUM_DEGREES_OF_FREEDOM:
             problem = fitted.problem
             spread = jackknife_covariance(problem, log.torque, groups, fitted.start, problem.scale, fitted.known.all)
-            found = found.at_least(spread)
+            uncertainty = uncertainty.at_least(spread)
     different = _different_rows(log, held_out) - solution.values.size
     if different < MINIMUM_DEGREES_OF_FREEDOM:
         degrees_of_freedom = min(different, degrees_of_freedom)
-    return found, degrees_of_freedom
+    return uncertainty, degrees_of_freedom
 
 
 def points_of(
@@ -323,11 +325,11 @@ def points_of(
     the oil has a grade.
     """
     loads = log.axial_load if convention is None else convention.loads(log.axial_load, log.screw_speed)
-    found = {"axial_load": loads, "screw_speed": np.abs(log.screw_speed)}
+    points = {"axial_load": loads, "screw_speed": np.abs(log.screw_speed)}
     if lubricant.follows_temperature:
         held = np.full(len(log), lubricant.temperature) if log.temperature is None else log.temperature
-        found[TEMPERATURE.name] = held
-    return found
+        points[TEMPERATURE.name] = held
+    return points
 
 
 def _temperature_error(
@@ -434,7 +436,7 @@ def _one_sided(fitted: _Fitted, uncertainty: Uncertainty) -> NDArray[np.bool_]:
     psi = solution.influence
     sharpness = solution.curvature * np.count_nonzero(~solution.outlying) / max(float(psi @ psi), 1e-300)
     here = loss_of(solution.residuals, solution.scatter)
-    covariance, found = uncertainty.covariance, np.zeros(len(problem.parameters), dtype=bool)
+    covariance, values = uncertainty.covariance, np.zeros(len(problem.parameters), dtype=bool)
     for i in range(len(problem.response.names)):
         error = math.sqrt(covariance[i, i])
         if error == 0:
@@ -443,8 +445,8 @@ def _one_sided(fitted: _Fitted, uncertainty: Uncertainty) -> NDArray[np.bool_]:
             step = sign * STEP_ERRORS * covariance[:, i] / error
             there, _ = torque(np.clip(solution.values + step, *problem.bounds))
             rise = sharpness * (loss_of(there - measured, solution.scatter) - here)
-            found[i] |= rise < FLAT_SHARE * STEP_ERRORS**2
-    return found
+            values[i] |= rise < FLAT_SHARE * STEP_ERRORS**2
+    return values
 
 
 def _estimates(
@@ -460,7 +462,7 @@ def _estimates(
     at_bound = (solution.values - low <= near) | (high - solution.values <= near)
     precise = np.sqrt(np.diagonal(uncertainty.covariance)) <= MAXIMUM_RELATIVE_ERROR * uncertainty.scale
     precise &= degrees_of_freedom >= MINIMUM_DEGREES_OF_FREEDOM
-    found: dict[str, Estimate] = {}
+    estimates: dict[str, Estimate] = {}
     for i, parameter in enumerate(problem.parameters):
         value, variance = float(solution.values[i]), float(uncertainty.covariance[i, i])
         prior = fitted.known.deviation(i, value)
@@ -475,7 +477,7 @@ def _estimates(
         # in one direction a zero error of the sensor is the same as it
         told = told and (parameter.name != CONSTANT_TORQUE.name or problem.has_torque_offset)
         identified = bool(told and not at_bound[i] and not one_sided[i])
-        found[parameter.name] = Estimate(
+        estimates[parameter.name] = Estimate(
             name=parameter.name,
             quantity=parameter.quantity,
             value=value,
@@ -489,7 +491,7 @@ def _estimates(
             temperature_share=0.0 if variance == 0 else 1 - float(of_rows.covariance[i, i]) / variance,
             bounds=(parameter.low, parameter.high),
         )
-    return found
+    return estimates
 
 
 def _with(subject: Configuration, problem: Problem, solution: Solution) -> Configuration:
@@ -524,8 +526,8 @@ def _scores(problem: Problem, rows: Rows, torques: Vector) -> list[Score]:
         CALIBRATED: (len(problem.parameters), rows.predicted),
     }
     for baseline in baselines.ALL:
-        found = baseline(conditions.rows(fitted), log.torque[fitted])
-        described[found.description] = (found.parameters, found.torque(conditions))
+        result = baseline(conditions.rows(fitted), log.torque[fitted])
+        described[result.description] = (result.parameters, result.torque(conditions))
     return [
         Score(words, count, rows.rms(predicted - log.torque, fitted), rows.rms(predicted - log.torque, rows.held_out))
         for words, (count, predicted) in described.items()

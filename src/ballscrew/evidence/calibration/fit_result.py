@@ -228,8 +228,8 @@ class FitResult(Displayed):
     @property
     def holdout_rms(self) -> float | None:
         """The same of the rows held out; None where there are none."""
-        found = self.rows.rms(self.rows.residuals, self.rows.held_out)
-        return None if np.isnan(found) else found
+        rms = self.rows.rms(self.rows.residuals, self.rows.held_out)
+        return None if np.isnan(rms) else rms
 
     @property
     def response(self) -> Response:
@@ -254,8 +254,8 @@ class FitResult(Displayed):
     @property
     def constant_torque(self) -> float:
         """Friction torque beside the model's, N m; zero unless it was fitted."""
-        found = self.estimates.get(CONSTANT_TORQUE.name)
-        return 0.0 if found is None else found.value
+        result = self.estimates.get(CONSTANT_TORQUE.name)
+        return 0.0 if result is None else result.value
 
     @property
     def joint(self) -> JointNormal:

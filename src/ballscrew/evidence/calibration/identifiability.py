@@ -100,10 +100,10 @@ class Identifiability:
         if others.shape[1]:
             basis, _ = np.linalg.qr(others)
             alone = alone - basis @ (basis.T @ alone)
-        found = IdentifiableDirections.of(alone * scale[:count])
+        directions = IdentifiableDirections.of(alone * scale[:count])
         combinations = []
         for s, direction, identifiable in zip(
-            found.singular_values, found.directions.T, found.identifiable, strict=True
+            directions.singular_values, directions.directions.T, directions.identifiable, strict=True
         ):
             powers = direction * np.sign(direction[np.argmax(np.abs(direction))])
             with np.errstate(divide="ignore", over="ignore"):
@@ -111,8 +111,8 @@ class Identifiability:
             # rounding gives a direction components of parameters that are not in it
             kept = {n: float(power) for n, power in zip(names, powers, strict=True) if abs(power) > ROUNDING_COMPONENT}
             combinations.append(Combination(kept, error, bool(identifiable)))
-        identified = dict(zip(names, found.identifiable_parameters.tolist(), strict=True))
-        return cls(tuple(names), found.singular_values, identified, combinations)
+        identified = dict(zip(names, directions.identifiable_parameters.tolist(), strict=True))
+        return cls(tuple(names), directions.singular_values, identified, combinations)
 
 
 def weighted_derivatives(solution: Solution) -> Vector:

@@ -35,9 +35,9 @@ def jackknife_covariance(
     Tukey1958. G is the number of groups, θ_g the estimate without the rows of group g.
     """
     names = np.unique(groups[groups >= 0])
-    found: list[Vector] = []
+    vectors: list[Vector] = []
     for name in names:
         kept = (groups >= 0) & (groups != name)
-        found.append(solve(problem.on(kept), measured[kept], start, scale, problem.bounds, prior).values)
-    off = np.stack(found) - np.mean(found, axis=0)
+        vectors.append(solve(problem.on(kept), measured[kept], start, scale, problem.bounds, prior).values)
+    off = np.stack(vectors) - np.mean(vectors, axis=0)
     return np.asarray((names.size - 1) / names.size * off.T @ off, dtype=np.float64)

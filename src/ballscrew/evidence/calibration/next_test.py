@@ -55,7 +55,7 @@ class NextTest:
 
 
 def next_test(
-    found: FitResult,
+    fit_result: FitResult,
     limits: Mapping[str, tuple[float, float]] | None = None,
     readings: int | None = None,
     seed: int = 0,
@@ -70,34 +70,34 @@ def next_test(
     Raises :class:`~ballscrew.basis.errors.InputError` for limits of what is no condition of a test.
     """
     given = dict(limits or {})
-    log = found.rows.log
+    log = fit_result.rows.log
     rows = len(log)
     count = readings or math.ceil(READINGS_SHARE * rows)
-    ranges = _ranges(found, given)
+    ranges = _ranges(fit_result, given)
     tests = _grid(ranges)
-    tests = {name: values[_valid(found, tests)] for name, values in tests.items()}
+    tests = {name: values[_valid(fit_result, tests)] for name, values in tests.items()}
     problem = [Fault("fit.next_test", "has no valid point within the limits", "", "widen the limits")]
     raise_if_any(problem if not tests["axial_load"].size else [])
-    before = _open(found)
-    remaining = _after(before, _derivatives(found, tests), count)
-    asked = len(found.estimates)
+    before = _open(fit_result)
+    remaining = _after(before, _derivatives(fit_result, tests), count)
+    asked = len(fit_result.estimates)
     volume = _volume(remaining, asked) / _volume(before[np.newaxis], asked)
     best = int(np.argmin(volume))
-    stays = np.diagonal(found.temperature_error.covariance)[:asked]
+    stays = np.diagonal(fit_result.temperature_error.covariance)[:asked]
     errors = np.sqrt((np.diagonal(remaining[best])[:asked] + stays) / (np.diagonal(before)[:asked] + stays))
     random = np.random.default_rng(seed).choice(volume, RANDOM_TEST_COUNT)
-    told = dict(zip(found.estimates, errors.tolist(), strict=True))
+    told = dict(zip(fit_result.estimates, errors.tolist(), strict=True))
     return NextTest(tests, volume, told, count, float(np.median(random)))
 
 
-def _ranges(found: FitResult, limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
-    log = found.rows.log
+def _ranges(fit_result: FitResult, limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    log = fit_result.rows.log
     ranges = {
         name: (_further(float(values.min()), -1), _further(float(values.max()), 1))
         for name, values in {"axial_load": log.axial_load, "screw_speed": np.abs(log.screw_speed)}.items()
     }
-    if found.lubricant.follows_temperature and log.temperature is not None:
-        info = found.lubricant.temperature_quantity.info
+    if fit_result.lubricant.follows_temperature and log.temperature is not None:
+        info = fit_result.lubricant.temperature_quantity.info
         low, high = float(log.temperature.min()) - TEMPERATURE_MARGIN, float(log.temperature.max()) + TEMPERATURE_MARGIN
         ranges[TEMPERATURE.name] = max(low, info.at_least or low), min(high, info.at_most or high)
     unknown = [name for name in limits if name not in ranges]
@@ -140,37 +140,37 @@ def _by_ratios(low: float, high: float, number: int) -> Vector:
     return np.geomspace(low if low > 0 else 1e-3 * high, high, number)
 
 
-def _valid(found: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.bool_]:
-    oil = found.lubricant.at(tests[TEMPERATURE.name]) if TEMPERATURE.name in tests else found.lubricant
-    result = found.model(found.screw, oil, axial_load=tests["axial_load"], screw_speed=tests["screw_speed"])
+def _valid(fit_result: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.bool_]:
+    oil = fit_result.lubricant.at(tests[TEMPERATURE.name]) if TEMPERATURE.name in tests else fit_result.lubricant
+    result = fit_result.model(fit_result.screw, oil, axial_load=tests["axial_load"], screw_speed=tests["screw_speed"])
     return np.asarray(result.valid & np.isfinite(result.screw_torque))
 
 
-def _open(found: FitResult) -> Vector:
+def _open(fit_result: FitResult) -> Vector:
     """Covariance of all parameters of the fit, those that are open known to their own size."""
-    root = weighted_derivatives(found.solution)
-    own = np.diag(1 / found.uncertainty.scale**2)
+    root = weighted_derivatives(fit_result.solution)
+    own = np.diag(1 / fit_result.uncertainty.scale**2)
     return np.asarray(np.linalg.inv(root.T @ root + own), dtype=np.float64)
 
 
-def _derivatives(found: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.float64]:
+def _derivatives(fit_result: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.float64]:
     """Derivatives of the readings of each test in units of the scatter, of shape (tests, directions, parameters)."""
-    log, response, convention = found.rows.log, found.response, found.rows.convention
+    log, response, convention = fit_result.rows.log, fit_result.response, fit_result.rows.convention
     points, load = dict(tests), tests["axial_load"]
-    if found.lubricant.follows_temperature and TEMPERATURE.name not in points:
-        points[TEMPERATURE.name] = np.full(load.size, found.lubricant.temperature)
+    if fit_result.lubricant.follows_temperature and TEMPERATURE.name not in points:
+        points[TEMPERATURE.name] = np.full(load.size, fit_result.lubricant.temperature)
     directions = [sign for sign in (1.0, -1.0) if np.any(sign * log.screw_speed > 0)]
     ones = np.ones(load.size)
     made: list[Vector] = []
     for sign in directions:
         points["axial_load"] = convention.loads(load, sign * ones)
-        torques, slopes = response.at(points)(found.solution.values[: len(response.names)])
+        torques, slopes = response.at(points)(fit_result.solution.values[: len(response.names)])
         weights = convention.weights(load, sign * ones)
         columns = [np.einsum("tr,trn->rn", weights, slopes)]
-        columns += [weights[1][:, np.newaxis]] * (len(found.estimates) - len(response.names))
+        columns += [weights[1][:, np.newaxis]] * (len(fit_result.estimates) - len(response.names))
         # a later test has the zero error of the sensor, and nobody knows its drift by then
-        columns += [(ones if name == "torque_offset" else 0 * ones)[:, np.newaxis] for name in found.sensor]
-        scatter = found.solution.noise.of(np.sum(weights * torques, axis=0))
+        columns += [(ones if name == "torque_offset" else 0 * ones)[:, np.newaxis] for name in fit_result.sensor]
+        scatter = fit_result.solution.noise.of(np.sum(weights * torques, axis=0))
         made.append(np.hstack(columns) / scatter[:, np.newaxis])
     return np.stack(made, axis=1)
 

@@ -53,8 +53,8 @@ def torque_of_model(subject: Configuration, points: Mapping[str, Any], weights: 
         oil = oil.at(points[TEMPERATURE.name] + warmer)
     elif np.any(warmer):
         oil = dataclasses.replace(oil, viscosity=oil.viscosity * np.exp(-warmer * oil.temperature_coefficient))
-    found = subject.model(subject.screw, oil, **{name: points[name] for name in OPERATION})
-    return weights[0] * found.ideal_torque + weights[1] * found.screw_torque
+    model = subject.model(subject.screw, oil, **{name: points[name] for name in OPERATION})
+    return weights[0] * model.ideal_torque + weights[1] * model.screw_torque
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

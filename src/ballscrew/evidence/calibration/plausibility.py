@@ -47,12 +47,14 @@ class _Range(NamedTuple):
     reason: str
 
 
-def verdict_records(found: FitResult, dynamic_load_rating: Force | None = None) -> list[Record]:
+def verdict_records(fit_result: FitResult, dynamic_load_rating: Force | None = None) -> list[Record]:
     """A verdict for each fitted number that no screw has, in the order of the estimates."""
-    limits = {name: _range(found, full, estimate, dynamic_load_rating) for name, full, estimate in _named(found)}
+    limits = {
+        name: _range(fit_result, full, estimate, dynamic_load_rating) for name, full, estimate in _named(fit_result)
+    }
     return [
         _record(estimate, limit)
-        for name, estimate in found.estimates.items()
+        for name, estimate in fit_result.estimates.items()
         if (limit := limits[name]) is not None
         and not limit.low <= estimate.value <= limit.high
         and not (name == CONSTANT_TORQUE.name and _is_zero_by_chance(estimate))
@@ -65,15 +67,18 @@ def _is_zero_by_chance(estimate: Estimate) -> bool:
     return estimate.value < 0 and ends is not None and ends[1] >= 0
 
 
-def _named(found: FitResult) -> list[tuple[str, str, Estimate]]:
+def _named(fit_result: FitResult) -> list[tuple[str, str, Estimate]]:
     """The estimates with the names that they have as inputs."""
-    full = [*found.response.names, *([CONSTANT_TORQUE.name] if CONSTANT_TORQUE.name in found.estimates else [])]
-    return [(name, inside, one) for inside, (name, one) in zip(full, found.estimates.items(), strict=True)]
+    full = [
+        *fit_result.response.names,
+        *([CONSTANT_TORQUE.name] if CONSTANT_TORQUE.name in fit_result.estimates else []),
+    ]
+    return [(name, inside, one) for inside, (name, one) in zip(full, fit_result.estimates.items(), strict=True)]
 
 
-def _range(found: FitResult, full: str, estimate: Estimate, rating: Force | None) -> _Range | None:
+def _range(fit_result: FitResult, full: str, estimate: Estimate, rating: Force | None) -> _Range | None:
     if full == CONSTANT_TORQUE.name:
-        rows = found.rows
+        rows = fit_result.rows
         measured = rows.friction + estimate.value - rows.direction * rows.residuals
         return _Range(0.0, MOST_CONSTANT * float(np.median(np.abs(measured))), _CONSTANT)
     if full in _PRELOADS and rating is not None:

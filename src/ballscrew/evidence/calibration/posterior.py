@@ -36,7 +36,7 @@ class Posterior:
 
 
 def posterior(
-    found: FitResult, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None
+    fit_result: FitResult, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None
 ) -> Posterior:
     """Samples of ``exp(−½ k Σ ρ(r))`` times the priors within the bounds, by emcee's affine-invariant walkers.
 
@@ -49,17 +49,17 @@ def posterior(
         import emcee
     except ImportError:
         raise InputError(Fault("posterior", "needs emcee", "", 'pip install "ballscrew[calibrate]"')) from None
-    problem, solution = found.problem, found.solution
+    problem, solution = fit_result.problem, fit_result.solution
     low, high = problem.bounds
-    torque = problem.on(~found.rows.held_out)
-    measured = found.rows.log.torque[~found.rows.held_out]
+    torque = problem.on(~fit_result.rows.held_out)
+    measured = fit_result.rows.log.torque[~fit_result.rows.held_out]
 
     psi = solution.influence
     kept = int(np.count_nonzero(~solution.outlying))
     sharpness = solution.curvature * kept / max(float(psi @ psi), 1e-300)
 
-    warmth, known = found.temperature_error, problem.start.size
-    by_score = warmth.deviation * warmth.torque_per_kelvin[~found.rows.held_out]
+    warmth, known = fit_result.temperature_error, problem.start.size
+    by_score = warmth.deviation * warmth.torque_per_kelvin[~fit_result.rows.held_out]
     warm = int(warmth.half_width > 0)
 
     def logarithm(every: Vector) -> float:
@@ -69,12 +69,12 @@ def posterior(
         predicted, _ = torque(values)
         predicted = predicted + by_score * float(np.sum(scores))
         loss = loss_of(predicted - measured, solution.scatter)
-        return -0.5 * (sharpness * loss + float(np.sum(found.priors.residuals(values) ** 2) + np.sum(scores**2)))
+        return -0.5 * (sharpness * loss + float(np.sum(fit_result.priors.residuals(values) ** 2) + np.sum(scores**2)))
 
     random = np.random.default_rng(seed)
     count = known + warm
     walkers = max(WALKERS * count, 2 * count + 2)
-    of_rows = np.maximum(np.diagonal(found.uncertainty.covariance - warmth.covariance), 0.0)
+    of_rows = np.maximum(np.diagonal(fit_result.uncertainty.covariance - warmth.covariance), 0.0)
     spread = np.sqrt(of_rows) + 1e-3 * problem.scale
     off = random.standard_normal((walkers, count))
     moved = off[:, known:] * warmth.deviation * warmth.shift if warm else 0.0

@@ -48,10 +48,10 @@ class Priors:
 
     def slopes(self, x: Vector) -> Vector:
         """Derivatives of the residuals by the parameters."""
-        found = np.zeros((len(self._informative), x.size))
+        slopes = np.zeros((len(self._informative), x.size))
         for row, (i, prior) in enumerate(self._informative):
-            found[row, i] = _residual(prior, x[i])[1]
-        return found
+            slopes[row, i] = _residual(prior, x[i])[1]
+        return slopes
 
     def deviation(self, place: int, value: float) -> float | None:
         """The standard deviation that the prior of a parameter leaves; None without one."""

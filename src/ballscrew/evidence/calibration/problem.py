@@ -190,8 +190,8 @@ class Problem:
         """:meth:`torque` of some of the rows."""
 
         def torque(values: Vector) -> tuple[Vector, Vector]:
-            found, slopes = self.torque(values)
-            return found[chosen], slopes[chosen]
+            result, slopes = self.torque(values)
+            return result[chosen], slopes[chosen]
 
         return torque
 

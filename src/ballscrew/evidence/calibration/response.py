@@ -37,16 +37,16 @@ def resolve_input(subject: Configuration, name: str, section: str = "fit", besid
     """
     known = subject.inputs
     bare = name.removeprefix("model.").removeprefix("screw.").removeprefix("lubricant.")
-    found = [bare] if bare in known else [other for other in known if other.rpartition(".")[2] == bare]
-    if len(found) > 1:
-        raise InputError(Fault(f"{section}.free", "could be several numbers", name, f"one of {', '.join(found)}"))
-    if not found:
+    result = [bare] if bare in known else [other for other in known if other.rpartition(".")[2] == bare]
+    if len(result) > 1:
+        raise InputError(Fault(f"{section}.free", "could be several numbers", name, f"one of {', '.join(result)}"))
+    if not result:
         raise InputError(Fault(f"{section}.free", "unknown name", name, nearest(bare, [*beside, *known])))
-    if found[0] in OPERATION or found[0] == TEMPERATURE.name:
+    if result[0] in OPERATION or result[0] == TEMPERATURE.name:
         raise InputError(Fault(f"{section}.free", "is given by the log", name, "leave it out"))
-    if known[found[0]][1].info.whole:
+    if known[result[0]][1].info.whole:
         raise InputError(Fault(f"{section}.free", "is a whole number, which cannot be fitted", name, "leave it out"))
-    return found[0]
+    return result[0]
 
 
 def initial_value(subject: Configuration, name: str) -> float:
@@ -125,23 +125,23 @@ class Response:
         return self._by_differences(values)
 
     def _exact(self, values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        found = self._found({**_in_rows(self.points), **dict(zip(self.names, values.tolist(), strict=True))})
-        torques = np.stack([found[torque] for torque in TORQUES])
-        slopes = [[found[f"d_{torque}_d_{name.replace('.', '_')}"] for name in self.names] for torque in TORQUES]
+        result = self._found({**_in_rows(self.points), **dict(zip(self.names, values.tolist(), strict=True))})
+        torques = np.stack([result[torque] for torque in TORQUES])
+        slopes = [[result[f"d_{torque}_d_{name.replace('.', '_')}"] for name in self.names] for torque in TORQUES]
         return torques, np.moveaxis(np.array(slopes), 1, 2)
 
     def _by_differences(self, values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         steps = _steps(np.where(values == 0, self.start, values))
-        found = self._found(_beside(dict(zip(self.names, values, strict=True)), self.points, steps))
-        each = np.stack([found[torque] for torque in TORQUES]).reshape(len(TORQUES), 1 + 2 * values.size, -1)
+        result = self._found(_beside(dict(zip(self.names, values, strict=True)), self.points, steps))
+        each = np.stack([result[torque] for torque in TORQUES]).reshape(len(TORQUES), 1 + 2 * values.size, -1)
         slopes = (each[:, 1::2] - each[:, 2::2]) / (2.0 * steps[:, np.newaxis])
         return each[:, 0], np.moveaxis(slopes, 1, 2)
 
     def _found(self, axes: Mapping[str, Any]) -> dict[str, NDArray[np.float64]]:
         made = self.evaluation.at(axes)
-        found = made.empty(made.plan.total)
-        made.fill(found, slice(0, made.plan.total))
-        return found
+        outputs = made.empty(made.plan.total)
+        made.fill(outputs, slice(0, made.plan.total))
+        return outputs
 
 
 def _in_rows(points: Mapping[str, NDArray[np.float64]]) -> dict[str, xr.DataArray]:
@@ -159,10 +159,10 @@ def _beside(
     """All rows with these values, then for each number in turn all rows with it a step above, and a step below."""
     blocks = 1 + 2 * len(values)
     count = next(iter(points.values())).size
-    found = {name: np.tile(held, blocks) for name, held in points.items()}
+    result = {name: np.tile(held, blocks) for name, held in points.items()}
     for place, (name, value) in enumerate(values.items()):
         each = np.full(blocks, value)
         each[1 + 2 * place] += steps[place]
         each[2 + 2 * place] -= steps[place]
-        found[name] = np.repeat(each, count)
-    return _in_rows(found)
+        result[name] = np.repeat(each, count)
+    return _in_rows(result)

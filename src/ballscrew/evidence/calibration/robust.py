@@ -163,10 +163,10 @@ def solve(
             return np.concatenate([known(x)[1] / scatter[:, np.newaxis], prior.slopes(x)])
 
         options: Any = {"jac": slopes, "loss": loss}  # SciPy's types know only names
-        found = least_squares(
+        result = least_squares(
             residuals, values, x_scale=scale, bounds=bounds, xtol=1e-9, ftol=1e-10, gtol=1e-9, max_nfev=100, **options
         )
-        return found.x, bool(found.status > 0)
+        return result.x, bool(result.status > 0)
 
     values = np.clip(start, *_inside(bounds))
     # far from the solution, misses are no noise that grows with the torque
@@ -247,8 +247,8 @@ def _loss(of_rows: Loss, rows: int) -> Callable[[Vector], Vector]:
     """A loss as SciPy wants it, of squared residuals: for rows of the log, and a plain square for the prior."""
 
     def loss(z: Vector) -> Vector:
-        found = np.array([z, np.ones_like(z), np.zeros_like(z)])
-        found[:, :rows] = of_rows(z[:rows])
-        return found
+        loss = np.array([z, np.ones_like(z), np.zeros_like(z)])
+        loss[:, :rows] = of_rows(z[:rows])
+        return loss
 
     return loss

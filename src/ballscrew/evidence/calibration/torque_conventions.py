@@ -110,18 +110,18 @@ def identify_convention(
             columns += [np.ones(some.size), *([] if drift is None else [drift[some]])]
         rest = torque[some] - weights[0] * ideal
         stacked = np.stack(columns, axis=1)
-        found, _ = robust_linear(stacked, rest)
-        scatter = scatter_of(stacked @ found - rest, torque)
+        result, _ = robust_linear(stacked, rest)
+        scatter = scatter_of(stacked @ result - rest, torque)
         typical = float(np.median(torques[1][some])) or 1.0
         # friction at a typical row over the model's, constant part included
-        factor = found[0] + found[1] / typical
+        factor = result[0] + result[1] / typical
         if not factor > 0:
             return np.inf, scatter
         return scatter * (1 + (np.log(factor) / np.log(IMPLAUSIBLE_RATIO)) ** 2), scatter
 
-    found = [penalised_scatter(convention) for convention in choices]
+    scatters = [penalised_scatter(convention) for convention in choices]
     best = 0
-    for place, (penalised, _) in enumerate(found):
-        if penalised < DECISIVE_RATIO * found[best][0]:
+    for place, (penalised, _) in enumerate(scatters):
+        if penalised < DECISIVE_RATIO * scatters[best][0]:
             best = place
-    return choices[best], found[best][1]
+    return choices[best], scatters[best][1]

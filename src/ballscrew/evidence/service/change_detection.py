@@ -103,7 +103,7 @@ def _simulated(baseline: int, count: int, rate: float) -> tuple[float, ...]:
     squares = np.sum(np.diff(first, axis=1) ** 2, axis=1)
     differences = baseline - 1
     fall = rise = np.zeros(_SERIES)
-    found: list[float] = []
+    values: list[float] = []
     for _ in range(count):
         value = random.standard_normal(mean.size)
         squares = squares + (value - last) ** 2
@@ -112,10 +112,10 @@ def _simulated(baseline: int, count: int, rate: float) -> tuple[float, ...]:
         fall, rise = np.maximum(0, fall - score - ALLOWANCE), np.maximum(0, rise + score - ALLOWANCE)
         worst = np.maximum(fall, rise)
         limit = float(np.quantile(worst, 1 - rate))
-        found.append(limit)
+        values.append(limit)
         healthy = worst <= limit  # series with an alarm have ended
         mean, last, squares, fall, rise = (one[healthy] for one in (mean, value, squares, fall, rise))
-    return tuple(found)
+    return tuple(values)
 
 
 def limits(baseline: int, count: int, rate: float) -> Vector:
@@ -137,5 +137,5 @@ def trend(times: Vector, values: Vector) -> Trend:
 
     if np.unique(times).size < 3:
         return Trend(math.nan, math.nan, math.nan)
-    found: Any = theilslopes(values, times, 0.95)  # SciPy's types have no names
-    return Trend(float(found.slope), float(found.low_slope), float(found.high_slope))
+    result: Any = theilslopes(values, times, 0.95)  # SciPy's types have no names
+    return Trend(float(result.slope), float(result.low_slope), float(result.high_slope))

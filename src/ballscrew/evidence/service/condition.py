@@ -95,10 +95,10 @@ def condition(
         series = TorqueSeries.of(tests)
         raise_if_any(_faults_of_count(len(series), baseline))
         means = of_series(series, screw_speed)
-    found = reduced(subject, means, baseline, known, joint, reference_temperature, seed)
+    result = reduced(subject, means, baseline, known, joint, reference_temperature, seed)
     graded = subject.lubricant.follows_temperature
-    made = _judged(subject, means, found, baseline, false_alarms, tolerance, graded)
-    warnings, verdicts = records_of(made, means, found, subject)
+    made = _judged(subject, means, result, baseline, false_alarms, tolerance, graded)
+    warnings, verdicts = records_of(made, means, result, subject)
     return dataclasses.replace(made, warning_records=tuple(warnings), verdict_records=tuple(verdicts))
 
 
@@ -135,43 +135,43 @@ def _faults_of_count(count: int, baseline: int) -> list[Fault]:
 def _judged(
     subject: Configuration,
     means: Means,
-    found: Reduction,
+    reduction: Reduction,
     baseline: int,
     false_alarms: float,
     tolerance: float,
     graded: bool,
 ) -> Condition:
     used = means.logged & graded
-    of_temperature = found.temperature_deviation(means, graded)
+    of_temperature = reduction.temperature_deviation(means, graded)
     of_model = MODEL_ERROR / np.sqrt(means.speeds)
     # with no temperature at all, what the weather does to the torque is in its scatter, as far as it shows there
     weather = of_temperature if used.any() else np.zeros(means.count)
-    besides = np.sqrt(weather**2 + of_model**2 + found.torque_doubt**2)
-    scatter = robust_scatter(found.torque)
+    besides = np.sqrt(weather**2 + of_model**2 + reduction.torque_doubt**2)
+    scatter = robust_scatter(reduction.torque)
     first = math.sqrt(1 / baseline)
     # of tests without temperatures the first ones may all have been as warm
     shared = np.mean(of_temperature[:baseline]) * (first if used[:baseline].all() else 1.0)
     apart = np.sqrt(of_temperature**2 + shared**2 + (scatter**2 + of_model**2) * (1 + first**2))
-    deviation_of_torque = np.sqrt(of_temperature**2 + scatter**2 + found.torque_doubt**2)
-    deviation = np.hypot(apart / np.abs(found.exponent), found.preload_doubt)
-    states = _states(subject, means, found, baseline, deviation_of_torque, deviation, used)
-    last = float((math.log(1 - tolerance) - found.preload[-1]) / deviation[-1])
+    deviation_of_torque = np.sqrt(of_temperature**2 + scatter**2 + reduction.torque_doubt**2)
+    deviation = np.hypot(apart / np.abs(reduction.exponent), reduction.preload_doubt)
+    states = _states(subject, means, reduction, baseline, deviation_of_torque, deviation, used)
+    last = float((math.log(1 - tolerance) - reduction.preload[-1]) / deviation[-1])
     return Condition(
         states=states,
         baseline=baseline,
         false_alarms=false_alarms,
-        reference_temperature=found.temperature,
-        reference_speed=found.screw_speed,
-        chart=chart(found.torque, baseline, besides, false_alarms),
-        trend=_trend(means.times, found.preload),
+        reference_temperature=reduction.temperature,
+        reference_speed=reduction.screw_speed,
+        chart=chart(reduction.torque, baseline, besides, false_alarms),
+        trend=_trend(means.times, reduction.preload),
         per=means.per,
         scatter=scatter,
         tolerance=tolerance,
         probability_of_loss=standard_normal_share(last) if math.isfinite(last) else math.nan,
-        per_kelvin=float(found.per_kelvin[-1]),
-        exponent=float(found.exponent[-1]),
-        factor=found.factor,
-        factor_interval=found.factor_interval,
+        per_kelvin=float(reduction.per_kelvin[-1]),
+        exponent=float(reduction.exponent[-1]),
+        factor=reduction.factor,
+        factor_interval=reduction.factor_interval,
         temperatures=int(np.count_nonzero(used)),
         sources=means.sources,
         notes=means.notes,
@@ -186,17 +186,17 @@ def _trend(times: Vector, preload: Vector) -> Trend:
 def _states(
     subject: Configuration,
     means: Means,
-    found: Reduction,
+    reduction: Reduction,
     baseline: int,
     of_torque: Vector,
     of_preload: Vector,
     used: Any,
 ) -> list[State]:
-    parts = parts_of(subject, means, found, baseline)
+    parts = parts_of(subject, means, reduction, baseline)
     states: list[State] = []
     for i, label in enumerate(means.labels):
         torque, preload = (
-            _interval(*pair) for pair in ((found.torque[i], of_torque[i]), (found.preload[i], of_preload[i]))
+            _interval(*pair) for pair in ((reduction.torque[i], of_torque[i]), (reduction.preload[i], of_preload[i]))
         )
         warm = float(np.mean(means.temperature[means.test == i]))
         states.append(

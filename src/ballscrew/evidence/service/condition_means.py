@@ -130,11 +130,11 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
             sources.append(log.source)
         try:
             clean = log.cleaned(inertia=inertia)
-            found, clean = _means(subject, clean, kind if kind != "unknown" else log.kind)
+            result, clean = _means(subject, clean, kind if kind != "unknown" else log.kind)
         except InputError as error:
             faults += [dataclasses.replace(fault, where=f"{name}: {fault.where}") for fault in error.faults]
             continue
-        parts += [(number, one) for one in found]
+        parts += [(number, one) for one in result]
         notes += [f"{name}: {line}" for line in (clean.usage, *clean.notes)]
         if not (np.any(clean.forward) and np.any(clean.backward)):
             warnings.append(
@@ -220,18 +220,18 @@ def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> tuple[list[_Me
             )
         ideal = np.broadcast_to(model.ideal_torque, speed.shape)
     share = (np.asarray(log.torque) - ideal) * np.sign(log.screw_speed) / friction
-    found: list[_Mean] = []
+    result: list[_Mean] = []
     kept = np.zeros(speed.size, dtype=bool)
     for rows in _of_one_speed(speed):
         sides = _sides(log, rows)
         if len(sides) < (2 if both else 1):
             continue
         kept[np.concatenate(sides)] = True
-        found.append(_mean(log, rows, sides, share, friction))
-    if not found:
+        result.append(_mean(log, rows, sides, share, friction))
+    if not result:
         remedy = f"give {LEAST_ROWS} rows or more of each speed, in both directions or in one"
         raise InputError(Fault("log", "has no speed with enough rows", "", remedy))
-    return found, log.select(kept, FEW_OF_A_SPEED)
+    return result, log.select(kept, FEW_OF_A_SPEED)
 
 
 def _sides(log: TorqueLog, rows: NDArray[np.int64]) -> list[NDArray[np.int64]]:

@@ -53,7 +53,7 @@ class Part:
     told: bool
 
 
-def parts_of(subject: Configuration, means: Means, found: Reduction, baseline: int) -> list[dict[str, Part]]:
+def parts_of(subject: Configuration, means: Means, reduction: Reduction, baseline: int) -> list[dict[str, Part]]:
     """The causes by name, for each test; nothing for tests of fewer speeds than :data:`LEAST_SPEEDS`."""
     if int(means.speeds.min()) < LEAST_SPEEDS:
         return [{} for _ in range(means.count)]
@@ -64,8 +64,8 @@ def parts_of(subject: Configuration, means: Means, found: Reduction, baseline: i
     kelvin = np.where(means.logged, LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE) / NORMAL_95
     before = np.column_stack([np.broadcast_to(priors, (means.count, len(keys) - 1)), kelvin])
     state, spread = np.zeros((means.count, len(keys))), np.zeros((means.count, len(keys)))
-    factor = np.exp(np.log(means.torque) - found.off - _logarithms(subject, means, {}, np.zeros(1)))
-    factor = factor * np.exp(of_first_tests(found.off, means, baseline))
+    factor = np.exp(np.log(means.torque) - reduction.off - _logarithms(subject, means, {}, np.zeros(1)))
+    factor = factor * np.exp(of_first_tests(reduction.off, means, baseline))
     error = REPEATABILITY if means.at_the_same_speeds else MODEL_ERROR
     for _ in range(_STEPS):
         now, slopes = _model(subject, means, names, state, factor)

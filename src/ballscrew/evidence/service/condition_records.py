@@ -45,25 +45,25 @@ _STAYED = "had the preload stayed"
 
 
 def records_of(
-    made: Condition, means: Means, found: Reduction, subject: Configuration
+    made: Condition, means: Means, reduction: Reduction, subject: Configuration
 ) -> tuple[list[Record], list[Record]]:
     """The warnings and the verdicts of a condition."""
     graded = subject.lubricant.follows_temperature
-    change = float(found.torque[-1] - np.mean(found.torque[: made.baseline]))
+    change = float(reduction.torque[-1] - np.mean(reduction.torque[: made.baseline]))
     warnings = [
         *_starved(means, subject, graded),
-        *_of_temperatures(made, means, found, subject, change, graded),
-        *_of_baseline(made, means, found, graded),
+        *_of_temperatures(made, means, reduction, subject, change, graded),
+        *_of_baseline(made, means, reduction, graded),
         *_of_speeds(means),
         *_of_factor(made),
         *_of_torques(made, means),
         *means.warnings,
     ]
-    verdicts = [_alarm(made, found), _preload(made), *_of_trend(made)]
+    verdicts = [_alarm(made, reduction), _preload(made), *_of_trend(made)]
     if means.speeds.min() > 1 and made.states[-1].parts:
         verdicts += _parts(made)
     elif abs(change) > NORMAL_95 * math.hypot(made.scatter, MODEL_ERROR):
-        verdicts += _instead(made, found, subject, change)
+        verdicts += _instead(made, reduction, subject, change)
     return warnings, verdicts
 
 
@@ -85,7 +85,7 @@ def _starved(means: Means, subject: Configuration, graded: bool) -> list[Record]
 
 
 def _of_temperatures(
-    made: Condition, means: Means, found: Reduction, subject: Configuration, change: float, graded: bool
+    made: Condition, means: Means, reduction: Reduction, subject: Configuration, change: float, graded: bool
 ) -> list[Record]:
     count, known = len(made.states), means.logged
     if not graded and known.any():
@@ -114,7 +114,7 @@ def _of_temperatures(
         )
         return [_warning("temperature_missing", "temperature", text, holds=False)]
     each = units.percent(abs(made.per_kelvin), 1)
-    needed = _warmer(subject, found, change)
+    needed = _warmer(subject, reduction, change)
     oil = ""
     if needed is not None and abs(needed) >= 1:
         oil = f"; an oil {units.fixed(abs(needed))} K {_hotter(needed)} would explain the last test"
@@ -126,13 +126,13 @@ def _hotter(kelvin: float) -> str:
     return "hotter" if kelvin > 0 else "colder"
 
 
-def _of_baseline(made: Condition, means: Means, found: Reduction, graded: bool) -> list[Record]:
+def _of_baseline(made: Condition, means: Means, reduction: Reduction, graded: bool) -> list[Record]:
     """A trend of the reduced torque with the temperature in the first tests, where the nut counts as healthy."""
     count = made.baseline
     if not (graded and means.logged[:count].all()):
         return []
     warm = np.array([float(np.mean(means.temperature[means.test == i])) for i in range(count)])
-    trend = temperature_trend(found.torque[:count], warm)
+    trend = temperature_trend(reduction.torque[:count], warm)
     if trend is None or not trend.told:
         return []
     text = (
@@ -186,10 +186,10 @@ def _of_torques(made: Condition, means: Means) -> list[Record]:
     return records
 
 
-def _warmer(subject: Configuration, found: Reduction, change: float) -> float | None:
+def _warmer(subject: Configuration, reduction: Reduction, change: float) -> float | None:
     """How much warmer an oil would be that changes the logarithm of the torque so much; None beyond 60 K."""
     steps = np.linspace(-KELVIN, KELVIN, _POINTS)
-    return _crossing(steps, _at_reference(subject, found, {}, steps), change)
+    return _crossing(steps, _at_reference(subject, reduction, {}, steps), change)
 
 
 def _crossing(steps: Vector, values: Vector, change: float) -> float | None:
@@ -209,11 +209,11 @@ def _rising(x: Vector, y: Vector) -> tuple[Vector, Vector]:
     return x[order], y[order]
 
 
-def _at_reference(subject: Configuration, found: Reduction, changes: Any, warmer: Vector) -> Vector:
+def _at_reference(subject: Configuration, reduction: Reduction, changes: Any, warmer: Vector) -> Vector:
     size = max([warmer.size, *(np.size(one) for one in changes.values())])
-    points: dict[str, Any] = {"axial_load": np.zeros(size), "screw_speed": np.full(size, found.screw_speed)}
-    if math.isfinite(found.temperature):
-        points[TEMPERATURE.name] = np.full(size, found.temperature)
+    points: dict[str, Any] = {"axial_load": np.zeros(size), "screw_speed": np.full(size, reduction.screw_speed)}
+    if math.isfinite(reduction.temperature):
+        points[TEMPERATURE.name] = np.full(size, reduction.temperature)
     with np.errstate(all="ignore"):
         there = subject.changed(changes) if changes else subject
         return np.log(np.broadcast_to(torque_of_model(there, points, FRICTION, np.broadcast_to(warmer, size)), size))
@@ -222,7 +222,7 @@ def _at_reference(subject: Configuration, found: Reduction, changes: Any, warmer
 # -- verdicts -------------------------------------------------------------------------------------
 
 
-def _alarm(made: Condition, found: Reduction) -> Record:
+def _alarm(made: Condition, reduction: Reduction) -> Record:
     count = len(made.states) - made.baseline
     chance = 1 - (1 - made.false_alarms) ** count
     rate = (
@@ -232,7 +232,7 @@ def _alarm(made: Condition, found: Reduction) -> Record:
     if made.alarm is None:
         text = f"no alarm: the torque is as in the first {made.baseline} tests, within its scatter ({rate})"
         return Record(text=text, id="condition.alarm", subject="torque", holds=True)
-    change = math.expm1(float(found.torque[made.alarm] - np.mean(found.torque[: made.baseline])))
+    change = math.expm1(float(reduction.torque[made.alarm] - np.mean(reduction.torque[: made.baseline])))
     test, way = made.states[made.alarm].label, "fallen" if made.chart.falls else "risen"
     text = f"alarm at {test}: the torque has {way} beyond its scatter, {units.change(change)} ({rate})"
     if not made.temperatures:
@@ -333,10 +333,10 @@ def _of_part(name: str, part: Part) -> str:
     return f"{cause}: {share} of before ({low} to {high})"
 
 
-def _instead(made: Condition, found: Reduction, subject: Configuration, change: float) -> list[Record]:
+def _instead(made: Condition, reduction: Reduction, subject: Configuration, change: float) -> list[Record]:
     """What would explain the last torque, had the preload stayed."""
     records: list[Record] = []
-    needed = _warmer(subject, found, change)
+    needed = _warmer(subject, reduction, change)
     limit = LOGGED_TEMPERATURE if made.states[-1].temperature is not None else UNKNOWN_TEMPERATURE
     if needed is None:
         text = f"{_STAYED}, no oil within {units.fixed(KELVIN)} K would explain the last torque"
@@ -348,14 +348,14 @@ def _instead(made: Condition, found: Reduction, subject: Configuration, change: 
             f"{'within' if within else 'beyond'} what is known of it ({units.fixed(limit)} K either way)"
         )
         records.append(_cause(WARMER, text, needed, limit, "K", within))
-    torque = math.exp(float(np.mean(found.torque[: made.baseline]))) * math.expm1(change)
+    torque = math.exp(float(np.mean(reduction.torque[: made.baseline]))) * math.expm1(change)
     way = "less" if torque < 0 else "more"
     text = f"{_STAYED}, a constant torque (seals, bearings) would be {units.in_unit(abs(torque), 'N m', 3)} {way}"
     records.append(_cause(CONSTANT, text, torque, None, "N m", None))
-    return [*records, *_of_boundary_friction(found, subject, change)]
+    return [*records, *_of_boundary_friction(reduction, subject, change)]
 
 
-def _of_boundary_friction(found: Reduction, subject: Configuration, change: float) -> list[Record]:
+def _of_boundary_friction(reduction: Reduction, subject: Configuration, change: float) -> list[Record]:
     try:
         name = resolve_input(subject, BOUNDARY_FRICTION)
     except InputError:  # a law of one's own, without such a number
@@ -364,7 +364,7 @@ def _of_boundary_friction(found: Reduction, subject: Configuration, change: floa
     if not now > 0:
         return []
     steps = np.linspace(-math.log(FACTOR), math.log(FACTOR), _POINTS)
-    needed = _crossing(steps, _at_reference(subject, found, {name: now * np.exp(steps)}, np.zeros(1)), change)
+    needed = _crossing(steps, _at_reference(subject, reduction, {name: now * np.exp(steps)}, np.zeros(1)), change)
     if needed is None:
         text = f"{_STAYED}, no boundary friction would explain the last torque"
         return [_cause(BOUNDARY_FRICTION, text, None, now, "1", False)]

@@ -110,8 +110,8 @@ class _Samples:
         at = {name: np.broadcast_to(one, shape).ravel() for name, one in points.items()}
         torque = torque_of_model(self.subject.changed(there), at, FRICTION, np.full(at["screw_speed"].size, warmer))
         with np.errstate(divide="ignore", invalid="ignore"):
-            found = np.log(torque).reshape(shape)
-        return np.where(np.isfinite(found), found, np.nan)
+            values = np.log(torque).reshape(shape)
+        return np.where(np.isfinite(values), values, np.nan)
 
 
 def reduced(
@@ -229,12 +229,12 @@ def of_first_tests(values: Vector, means: Means, baseline: int) -> Vector:
 
 def _by_test(values: Vector, means: Means, weights: Vector) -> Vector:
     """Weighted means of the values of each test; values that are not known are left out. Rows are samples."""
-    found = np.full((values.shape[0], means.count), math.nan)
+    vector = np.full((values.shape[0], means.count), math.nan)
     for test in range(means.count):
         rows = means.test == test
         own, weight = values[:, rows], np.broadcast_to(weights[rows], (values.shape[0], int(np.count_nonzero(rows))))
         weight = np.where(np.isfinite(own), weight, 0.0)
         total = weight.sum(axis=1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            found[:, test] = np.where(total > 0, (weight * np.nan_to_num(own)).sum(axis=1) / total, math.nan)
-    return found
+            vector[:, test] = np.where(total > 0, (weight * np.nan_to_num(own)).sum(axis=1) / total, math.nan)
+    return vector

@@ -54,13 +54,13 @@ def warning_records(
     worn: PreloadEstimate,
     subject: Configuration,
     dynamic_load_rating: Force | None,
-    found: Posterior,
+    posterior: Posterior,
 ) -> list[Record]:
     """Reasons not to trust the preloads, the gravest first."""
     logs = {label: one for label, one in (("new", new), ("worn", worn)) if one.fit is not None}
     return [
         *(record for label, one in logs.items() for record in _of_fit(label, one)),
-        *_of_numbers(found, list(logs)),
+        *_of_numbers(posterior, list(logs)),
         *_of_ratings({"new": new, "worn": worn}, subject, dynamic_load_rating),
         *(record for label, one in logs.items() for record in _of_lift_off(label, one)),
         *_of_temperatures(logs, subject),
@@ -93,18 +93,18 @@ def _of_fit(label: str, one: PreloadEstimate) -> list[Record]:
     ]
 
 
-def _of_numbers(found: Posterior, labels: list[str]) -> list[Record]:
+def _of_numbers(posterior: Posterior, labels: list[str]) -> list[Record]:
     from scipy.special import chdtri  # slow to import: for those only who fit
 
     records: list[Record] = []
-    if not found.effective_samples >= MINIMUM_SAMPLES:
+    if not posterior.effective_samples >= MINIMUM_SAMPLES:
         text = "hardly any numbers that are known for such a screw explain the logs: no preload is told"
         records.append(
-            _record("not_sampled", "preload", text, value=found.effective_samples, limit=float(MINIMUM_SAMPLES))
+            _record("not_sampled", "preload", text, value=posterior.effective_samples, limit=float(MINIMUM_SAMPLES))
         )
     limit = float(chdtri(MODEL_PARTS, MISFIT_SHARE))
-    for label, one in zip(labels, found.preloads, strict=True):
-        misfit = float(one.misfit[found.best])
+    for label, one in zip(labels, posterior.preloads, strict=True):
+        misfit = float(one.misfit[posterior.best])
         if misfit > limit:
             message = (
                 "with no preload does the model follow the torques, by more than the "
@@ -112,7 +112,7 @@ def _of_numbers(found: Posterior, labels: list[str]) -> list[Record]:
                 "torque right?"
             )
             records.append(_log_record("misfit", label, "torque", message, value=misfit, limit=limit))
-    for name, score in found.mean_scores().items():
+    for name, score in posterior.mean_scores().items():
         if abs(score) > LARGEST_SCORE:
             message = (
                 f"the logs ask for a {spoken(name)} {units.fixed(abs(score), 1)} standard deviations "
@@ -130,7 +130,7 @@ def _of_ratings(
         return []
     quantity: Quantity = subject.inputs[PRELOAD][1]
     limit = HIGHEST_PRELOAD * float(dynamic_load_rating)
-    found: list[Record] = []
+    records: list[Record] = []
     for label, one in both.items():
         if one.preload <= limit:
             continue
@@ -139,10 +139,10 @@ def _of_ratings(
             f"{label} preload {units.shown(one.preload, quantity)} is more than {percent}% of the dynamic load "
             f"rating, {units.shown(limit, quantity)}: it costs life; look at the nut and the units of the log"
         )
-        found.append(
+        records.append(
             _record("preload_above_rating", f"{label}.preload", message, value=one.preload, limit=limit, unit="N")
         )
-    return found
+    return records
 
 
 def _of_lift_off(label: str, one: PreloadEstimate) -> list[Record]:

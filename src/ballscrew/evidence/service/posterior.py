@@ -67,10 +67,10 @@ class Sensor(NamedTuple):
     known: Vector
 
     @classmethod
-    def of(cls, found: CalibratedModel, chosen: Places) -> Sensor:
+    def of(cls, calibrated_model: CalibratedModel, chosen: Places) -> Sensor:
         """Those of a fit: a constant torque where it was free, zero error, drift, wandering."""
-        columns = found.problem.columns[chosen]
-        linear = found.problem.parameters[len(found.response.names) :]
+        columns = calibrated_model.problem.columns[chosen]
+        linear = calibrated_model.problem.parameters[len(calibrated_model.response.names) :]
         rows = [
             row / parameter.deviation
             for parameter, row in zip(linear, np.eye(columns.shape[1]), strict=True)
@@ -94,18 +94,20 @@ class Readings:
     friction: float
 
     @classmethod
-    def of(cls, found: CalibratedModel) -> Readings:
+    def of(cls, calibrated_model: CalibratedModel) -> Readings:
         """Rows evenly over the log of a fit."""
-        log, convention = found.rows.log, found.rows.convention
+        log, convention = calibrated_model.rows.log, calibrated_model.rows.convention
         chosen = np.unique(np.linspace(0, len(log) - 1, min(len(log), MOST_ROWS)).astype(np.int64))
         return cls(
-            fit=found,
-            points={name: values[chosen] for name, values in points_of(log, found.lubricant, convention).items()},
+            fit=calibrated_model,
+            points={
+                name: values[chosen] for name, values in points_of(log, calibrated_model.lubricant, convention).items()
+            },
             weights=convention.weights(log.axial_load, log.screw_speed)[:, chosen],
             torque=log.torque[chosen],
-            sensor=Sensor.of(found, chosen),
-            temperature_deviation=oil_deviation(found),
-            friction=float(np.median(np.abs(found.rows.friction))),
+            sensor=Sensor.of(calibrated_model, chosen),
+            temperature_deviation=oil_deviation(calibrated_model),
+            friction=float(np.median(np.abs(calibrated_model.rows.friction))),
         )
 
 
@@ -119,14 +121,14 @@ class Groups(NamedTuple):
     constant: bool
 
     @classmethod
-    def of(cls, found: CalibratedModel) -> Groups:
+    def of(cls, calibrated_model: CalibratedModel) -> Groups:
         """Means of the rows of a fit, the errors of its sensor and its outliers taken out.
 
         A mean is the torque of the fit at the middle of the group, less what the fit is off by there: so it matters
         little that rows of a group are not at one point.
         """
-        kept = np.flatnonzero(~found.rows.outlying)
-        rows = points_of(found.rows.log, found.lubricant, found.rows.convention)
+        kept = np.flatnonzero(~calibrated_model.rows.outlying)
+        rows = points_of(calibrated_model.rows.log, calibrated_model.lubricant, calibrated_model.rows.convention)
         load, speed = rows["axial_load"][kept], rows["screw_speed"][kept]
         # the mean of loads of both signs would be none that was there
         sides = [side for side in (np.flatnonzero(load >= 0), np.flatnonzero(load < 0)) if side.size]
@@ -141,12 +143,12 @@ class Groups(NamedTuple):
         ]
         points = {name: np.array([values[kept][part].mean() for part in parts]) for name, values in rows.items()}
         points["screw_speed"] = np.array([np.exp(np.mean(np.log(speed[part]))) for part in parts])
-        there = torque_of_model(found.subject, points, FRICTION)
-        off = (found.rows.residuals * found.rows.direction)[kept]
+        there = torque_of_model(calibrated_model.subject, points, FRICTION)
+        off = (calibrated_model.rows.residuals * calibrated_model.rows.direction)[kept]
         friction = there - np.array([off[part].mean() for part in parts])
-        noise = np.array([math.hypot(*found.rows.scatter[kept][part]) / part.size for part in parts])
+        noise = np.array([math.hypot(*calibrated_model.rows.scatter[kept][part]) / part.size for part in parts])
         error = MODEL_ERROR * math.sqrt(max(len(parts) / MODEL_PARTS, 1.0)) * np.abs(friction)
-        return cls(points, friction, np.hypot(noise, error), CONSTANT_TORQUE.name in found.problem.names)
+        return cls(points, friction, np.hypot(noise, error), CONSTANT_TORQUE.name in calibrated_model.problem.names)
 
 
 class Conditional(NamedTuple):
@@ -259,7 +261,7 @@ def posterior(
     weights, believed = np.full(SAMPLES, np.nan), np.zeros(SAMPLES)
     proposals: list[tuple[Vector, Vector]] = []
     drawn: list[Vector] = []
-    found: list[list[Conditional]] = []
+    rows: list[list[Conditional]] = []
     for turn in range(ROUNDS):
         shares = sobol_sequence(count + 1, SAMPLES, seed + turn)
         normal = np.asarray(standard_normal_quantile(shares[1:])).T
@@ -267,7 +269,7 @@ def posterior(
         proposals.append((mean, root))
         drawn.append(scores)
         values = values_of(scores[:, : len(names)] @ mixing.T, uncertain)
-        found.append(
+        rows.append(
             [
                 conditional(
                     one, subject, fits[i].estimates[PRELOAD].value, values, deviations[i] * scores[:, len(names) + i]
@@ -276,7 +278,7 @@ def posterior(
             ]
         )
         every = np.concatenate(drawn)
-        believed = np.concatenate([np.sum([one.evidence for one in each], axis=0) for each in found]) + _normal(every)
+        believed = np.concatenate([np.sum([one.evidence for one in each], axis=0) for each in rows]) + _normal(every)
         density = np.asarray(logsumexp([_density(every, *one) for one in proposals], axis=0))
         logarithms = believed - density
         weights = (
@@ -302,7 +304,7 @@ def posterior(
         weights=weights,
         warmer=[deviation * every[:, len(names) + i] for i, deviation in enumerate(deviations)],
         preloads=[
-            Conditional(*(np.concatenate(part) for part in zip(*one, strict=True))) for one in zip(*found, strict=True)
+            Conditional(*(np.concatenate(part) for part in zip(*one, strict=True))) for one in zip(*rows, strict=True)
         ],
         best=int(np.argmax(believed)),
     )
@@ -316,9 +318,9 @@ def values_of(scores: Vector, uncertain: Mapping[str, Distribution]) -> dict[str
     }
 
 
-def oil_deviation(found: CalibratedModel) -> float:
+def oil_deviation(calibrated_model: CalibratedModel) -> float:
     """Standard deviation of the oil temperature of a log, K: less where it was logged and can be used."""
-    return usual_error(found.lubricant, found.rows.log) / NORMAL_95
+    return usual_error(calibrated_model.lubricant, calibrated_model.rows.log) / NORMAL_95
 
 
 def _shares(scores: Vector) -> Vector:

@@ -145,9 +145,9 @@ def preload_change(
     logs = {label: _cleaned(log, label, inertia) for label, log in logs.items()}  # all, before a fit that takes long
     readings = {label: _read(subject, log, label, free, kind, inertia, done) for label, log in logs.items()}
     fits = [one.fit for one in readings.values()]
-    found = posterior(subject, {n: Groups.of(one.fit) for n, one in readings.items()}, fits, known, joint, seed)
+    result = posterior(subject, {n: Groups.of(one.fit) for n, one in readings.items()}, fits, known, joint, seed)
     labels = list(readings)
-    estimates = {label: _estimate(subject, found, readings[label], place) for place, label in enumerate(labels)}
+    estimates = {label: _estimate(subject, result, readings[label], place) for place, label in enumerate(labels)}
     then, now = estimates.get("new") or _nominal(subject, distributions), estimates["worn"]
     logarithm = now.logarithm.less(then.logarithm)
     other: list[Alternative] = []
@@ -161,18 +161,18 @@ def preload_change(
         new=then,
         worn=now,
         logarithm=logarithm,
-        ratio_shares=_shares(found, logarithm, then if "new" not in labels else None),
-        scores=found.mean_scores(),
+        ratio_shares=_shares(result, logarithm, then if "new" not in labels else None),
+        scores=result.mean_scores(),
         tolerance=tolerance,
         alternatives=other,
     )
-    records = warning_records(then, now, subject, dynamic_load_rating, found)
+    records = warning_records(then, now, subject, dynamic_load_rating, result)
     return dataclasses.replace(change, warning_records=tuple(records))
 
 
-def _shares(found: Posterior, logarithm: Mixture, nominal: PreloadEstimate | None) -> dict[str, float]:
+def _shares(result: Posterior, logarithm: Mixture, nominal: PreloadEstimate | None) -> dict[str, float]:
     """What the variance of the ratio goes along with."""
-    shares = found.shares(logarithm.mean, logarithm.variance)
+    shares = result.shares(logarithm.mean, logarithm.variance)
     if nominal is not None and logarithm.told:
         shares["nominal preload"] = float(nominal.logarithm.variance[0] / logarithm.total_variance)
     return shares
@@ -254,7 +254,7 @@ def _read(
 ) -> Readings:
     """The rows of a log, with a first fit of the preload alone. Faults name the log."""
     try:
-        found = fit(
+        result = fit(
             subject.model,
             subject.screw,
             subject.lubricant,
@@ -268,7 +268,7 @@ def _read(
         )
     except InputError as error:
         raise _naming(log, label, error) from None
-    return Readings.of(found)
+    return Readings.of(result)
 
 
 def _cleaned(log: TorqueLog, label: str, inertia: float | None) -> TorqueLog:
@@ -297,19 +297,19 @@ def _statistical(one: Readings) -> float:
     return student * estimate.std / estimate.value
 
 
-def _estimate(subject: Configuration, found: Posterior, one: Readings, place: int) -> PreloadEstimate:
+def _estimate(subject: Configuration, result: Posterior, one: Readings, place: int) -> PreloadEstimate:
     log, first = one.fit.rows.log, one.fit.estimates[PRELOAD].value
-    each = found.preloads[place]
-    warmer = float(found.warmer[place][found.best])
-    there = {**found.number_at_best(), PRELOAD: first * math.exp(each.mean[found.best])}
+    each = result.preloads[place]
+    warmer = float(result.warmer[place][result.best])
+    there = {**result.number_at_best(), PRELOAD: first * math.exp(each.mean[result.best])}
     subject = subject.changed(there)
-    told = found.effective_samples >= MINIMUM_SAMPLES
+    told = result.effective_samples >= MINIMUM_SAMPLES
     statistical = _statistical(one) if told else math.nan
-    logarithm = Mixture(found.weights, math.log(max(first, 1e-300)) + each.mean, each.variance + statistical**2)
+    logarithm = Mixture(result.weights, math.log(max(first, 1e-300)) + each.mean, each.variance + statistical**2)
     loads = subject.model(subject.screw, subject.lubricant, axial_load=0.0, screw_speed=1.0).loads
     return PreloadEstimate(
         logarithm=logarithm,
-        shares=found.shares(logarithm.mean, logarithm.variance),
+        shares=result.shares(logarithm.mean, logarithm.variance),
         subject=subject,
         warmer=warmer,
         fit=one.fit,

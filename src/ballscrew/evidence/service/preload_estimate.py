@@ -66,8 +66,8 @@ class Mixture(NamedTuple):
         def off(value: float) -> float:
             return self.share_below(value) - share
 
-        found: Any = brentq(off, low, high, xtol=1e-9)
-        return float(found)
+        result: Any = brentq(off, low, high, xtol=1e-9)
+        return float(result)
 
     def interval(self, level: float) -> tuple[float, float]:
         """The interval of the number whose logarithm this is, with equal shares beyond its ends."""

@@ -71,12 +71,12 @@ def temperature_trend(logarithms: Vector, temperature: Vector, others: Vector | 
     if freedom < 1 or np.linalg.matrix_rank(x) < x.shape[1]:
         return None
     inverse = np.linalg.inv(x.T @ x)
-    found = inverse @ (x.T @ logarithms)
-    off = logarithms - x @ found
+    result = inverse @ (x.T @ logarithms)
+    off = logarithms - x @ result
     even = float(off @ off) / freedom * inverse
     along = inverse @ long_run_covariance(x * off[:, np.newaxis], autocorrelation_lag(off)) @ inverse
     scale = float(np.linalg.norm(temperature - temperature.mean()))
-    slope, error = float(found[1]) / scale, float(np.sqrt(max(even[1, 1], along[1, 1]))) / scale
+    slope, error = float(result[1]) / scale, float(np.sqrt(max(even[1, 1], along[1, 1]))) / scale
     half = float(stdtrit(freedom, 0.5 + _LEVEL / 2)) * error
     chance = 2 * float(stdtr(freedom, -abs(slope) / error)) if error > 0 else float(slope == 0)
     return TemperatureTrend(slope, slope - half, slope + half, chance, width)

@@ -15,15 +15,15 @@ from ballscrew.basis.errors import Fault, InputError, either
 from ballscrew.basis.quantities import Ratio, Torque, fields_of
 from ballscrew.evidence.validation.entries import RPM, Band, Conditions, OperatingPoint, Point, UpperLimitOnly, Values
 from ballscrew.files.tables.column_names import YES
-from ballscrew.physics.components.conditions import ContactConditions, Motion
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.physics.components.nut_losses import Seals
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import STEEL, BallScrew
 from ballscrew.physics.equations import geometry, hertz, rheology, transmission
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.conditions import ContactConditions, Motion
+from ballscrew.physics.laws.nut_losses import Seals
 from ballscrew.physics.sizing.accuracy_factors import factors_of_makes
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import ratings_of

@@ -20,13 +20,24 @@ from typer.core import TyperCommand, TyperGroup
 from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.faces.cli import INTERRUPTED, cases, choosing, lists, logs, questions, sharing
 from ballscrew.faces.cli.options import with_flags
-from ballscrew.faces.cli.progress import compiling_on_terminal
-from ballscrew.questions.records import AXIS, COMPARE, CONDITION, DUTY, REVERSAL, RIPPLE, SENSITIVITY, SERVICE, WARM_UP
+from ballscrew.questions.records import (
+    AXIS,
+    COMPARE,
+    CONDITION,
+    DUTY,
+    OPTIMISE,
+    REVERSAL,
+    RIPPLE,
+    SELECT,
+    SENSITIVITY,
+    SERVICE,
+    WARM_UP,
+)
 from ballscrew.questions.shared.question import CALIBRATION_NAMES, MODEL_NAMES, Question
 
 
 class _Command(TyperCommand):
-    """A command that says on a terminal what it compiles, and whose help names models and calibrations.
+    """A command whose help names models and calibrations.
 
     Ctrl-C ends it with a line on how far it came, what is kept and how to go on.
 
@@ -35,8 +46,7 @@ class _Command(TyperCommand):
 
     def invoke(self, ctx: Any) -> Any:
         try:
-            with compiling_on_terminal():
-                return super().invoke(ctx)
+            return super().invoke(ctx)
         except KeyboardInterrupt as error:
             for line in getattr(error, "__notes__", ["interrupted, nothing is kept · run the same again"]):
                 typer.echo(line, err=True)
@@ -62,8 +72,8 @@ _COMMANDS: Sequence[Question | Callable[..., None]] = (
     cases.sweep,
     lists.reproduce,
     cases.check,
-    choosing.select,
-    choosing.optimise,
+    SELECT,
+    OPTIMISE,
     logs.fit,
     sharing.hand_over,
     sharing.report,

@@ -6,7 +6,7 @@ import dataclasses
 import functools
 import inspect
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
 
@@ -71,14 +71,23 @@ class Output:
         """Print a line for people, such as that on a file that was written."""
         typer.echo(line, err=self.is_data)
 
-    def print_and_write(self, answer: Answer, files: Mapping[Path, str], option: str = "--to") -> None:
-        """Print an answer and write its files: of each the name of the table that a .csv has."""
+    def print_and_write(
+        self, answer: Answer, files: Mapping[Path, str], option: str = "--to", own_kinds: Sequence[str] = ()
+    ) -> None:
+        """Print an answer and write its files: of each the name of the table that a .csv has.
+
+        Those of its ``own_kinds`` come last, as there may be nothing to write into them.
+        """
         from ballscrew.faces.sheets import to_file
 
         self.print(answer.sheet, answer.document)
-        for path, table in files.items():
-            to_file.write(path, answer.sheet, table, option)
-            self.note(f"{path}: {answer.size}" if answer.size else f"{path}")
+        for path in sorted(files, key=lambda path: path.suffix.lower() in own_kinds):
+            size = answer.size
+            if answer.write is not None and path.suffix.lower() in own_kinds:
+                size = answer.write(path)
+            else:
+                to_file.write(path, answer.sheet, files[path], option)
+            self.note(f"{path}: {size}" if size else f"{path}")
 
 
 def print_answer(text: Callable[[], str], document: Callable[[], Any], *, as_json: bool) -> None:

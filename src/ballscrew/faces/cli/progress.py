@@ -81,32 +81,15 @@ _COMPILER = "ballscrew.compiler.kernels"
 
 @contextlib.contextmanager
 def log_on_stderr() -> Generator[None]:
-    """Show on the error stream what the package logs; compiling is for :func:`compiling_on_terminal`."""
-    with _echo("ballscrew", but=_COMPILER):
-        yield
-
-
-@contextlib.contextmanager
-def compiling_on_terminal() -> Generator[None]:
-    """Say on a terminal what is compiled, where that takes more than a second; silent where nobody looks."""
-    if not sys.stderr.isatty():
-        yield
-        return
-    with _echo(_COMPILER):
-        yield
-
-
-@contextlib.contextmanager
-def _echo(of: str, but: str | None = None) -> Generator[None]:
-    """Show on the error stream what a logger and those below it say, but for one of these."""
+    """Show on the error stream what the package logs; that something is compiled is said on a terminal in any case."""
     import logging  # not for those who ask for help only
 
     class Echo(logging.Handler):
         def emit(self, record: logging.LogRecord) -> None:
-            if but is None or not record.name.startswith(but):
+            if not record.name.startswith(_COMPILER):
                 sys.stderr.write(f"{record.getMessage()}\n")  # that of a bar, where there is one: above it
 
-    logger, handler = logging.getLogger(of), Echo()
+    logger, handler = logging.getLogger("ballscrew"), Echo()
     before = logger.level
     logger.addHandler(handler)
     logger.setLevel(logging.INFO)

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from ballscrew.faces.cli.options import Output, file_option
-from ballscrew.faces.cli.progress import progress
+from ballscrew.faces.cli.progress import print_notes_of_rows, progress
 from ballscrew.questions.shared.question import CaseFile, CaseOptions, File, Question, Request
 
 
@@ -24,14 +24,16 @@ def command_of(question: Question) -> Callable[..., None]:
         read = {file.name: _paths(given[file.name]) for file in question.reads}
         cases = [CaseFile(path, case_options) for file in question.reads if file.is_case for path in read[file.name]]
         case = cases[0] if cases else None
-        request = Request(files=read, case=case, case_options=case_options, written=written, to=to)
+        need = next((path for file in question.reads if file.is_need for path in read[file.name]), None)
+        request = Request(files=read, case=case, need=need, case_options=case_options, written=written, to=to)
         work = question.prepare(request)
         if work.files is None:
-            _check_files(to, flag)  # last of the checks, as it makes folders
-        with progress(work.name) if work.name else contextlib.nullcontext(_no_bar) as done:
+            _check_files(to, flag, question.own_kinds)  # last of the checks, as it makes folders
+        with progress(work.name, work.cost) if work.name else contextlib.nullcontext(_no_bar) as done:
             answer = work.answer(done)
         files = dict.fromkeys(to, "") if work.files is None else work.files
-        output.print_and_write(answer, files, option=f"--{flag}")
+        output.print_and_write(answer, files, f"--{flag}", question.own_kinds)
+        print_notes_of_rows(answer.notes, answer.is_interrupted)
 
     command.__name__, command.__doc__ = question.name.replace("-", "_"), question.help
     setattr(command, "__signature__", inspect.Signature(_parameters(question)))  # noqa: B010  (functions have none)
@@ -47,13 +49,13 @@ def _paths(given: Any) -> Sequence[Path]:
     return [] if given is None else given if isinstance(given, list) else [given]
 
 
-def _check_files(paths: Sequence[Path], flag: str) -> None:
+def _check_files(paths: Sequence[Path], flag: str, own_kinds: Sequence[str]) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` now for files that could not be written later."""
     from ballscrew.faces.sheets import to_file
     from ballscrew.questions.shared.chart_files import check_picture
 
     if flag != "picture":
-        to_file.check(paths)
+        to_file.check(paths, own_kinds)
         return
     for path in paths:
         check_picture(path, "--picture")

@@ -112,7 +112,6 @@ def compensation(
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.basis.errors import Fault, InputError, nearest
     from ballscrew.questions.compensation import compute
-    from ballscrew.questions.compensation.answer import document
     from ballscrew.questions.compensation.sheet import sheet
     from ballscrew.questions.compensation.table import LISTS
     from ballscrew.questions.warm_up import compute as warm_up
@@ -134,7 +133,7 @@ def compensation(
     with atomic_write("--out", out) as path:
         path.write_text(LISTS[to](result, options.axis), encoding="utf-8")
     output.note(f"{out}")
-    output.print(sheet(result, warmed_up), lambda: document(result, warmed_up))
+    output.print(sheet(result, warmed_up), lambda: compute.document(result, warmed_up))
 
 
 def site(

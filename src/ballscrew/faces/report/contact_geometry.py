@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.physics.components.nut import OversizeBallNut
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import kinematics, slip
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.run.nut_state import Touching
 

@@ -66,7 +66,7 @@ def _tell(done: Done | None, finished: int) -> None:
 
 def content(case: case_file.Case, done: Done | None = None, samples: int | None = None) -> Report:
     """Contents of the report of a case."""
-    found = run(case)
+    result = run(case)
     _tell(done, _ANSWERED)
 
     def of_band(finished: int, total: int) -> None:
@@ -81,17 +81,17 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     cycle = _duty(case)
     seen = band_sheet.sheet(case, uncertain, tornado=tornado(case, uncertain))
     sections = [
-        Section("Answer", _answer(cycle, answer(found, uncertain), case)),
-        _checks(case, found, cycle),
-        Section("Result", [results(found, uncertain), *_drawing(found)]),
-        Section("Where the torque comes from", parts(found)),
+        Section("Answer", _answer(cycle, answer(result, uncertain), case)),
+        _checks(case, result, cycle),
+        Section("Result", [results(result, uncertain), *_drawing(result)]),
+        Section("Where the torque comes from", parts(result)),
         Section("Around the operating point", pictures),
         Section("How far off it may be", report_blocks.blocks(seen, "band")),
         *([Section("Beside a vendor's rows", vendor)] if vendor else []),
         *_cycle(cycle),
         *_stiffness(case),
         *_heat(case),
-        Section("What to beware of", beware(found)),
+        Section("What to beware of", beware(result)),
         Section(
             "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), origins(case, inputs)]
         ),
@@ -122,9 +122,9 @@ def _answer(cycle: DutyReport | None, of_point: Paragraph, case: case_file.Case)
     ]
 
 
-def _checks(case: case_file.Case, found: Run, cycle: DutyReport | None) -> Section:
+def _checks(case: case_file.Case, result: Run, cycle: DutyReport | None) -> Section:
     """The checks over the cycle where there is one, else of the operating point: one verdict, and of what it is."""
-    of_point = checked("", case, known=found)
+    of_point = checked("", case, known=result)
     if cycle is None:
         return Section(
             "Checks", [_verdict(of_point.verdict, of_point), report_blocks.table(check_table(of_point.checks, {}))]
@@ -146,21 +146,21 @@ def _verdict(verdict: str, of_point: Checked) -> Paragraph:
 # -- the operating point --------------------------------------------------------------------------
 
 
-def answer(found: Run, uncertain: band.BandReport) -> Paragraph:
+def answer(result: Run, uncertain: band.BandReport) -> Paragraph:
     """The answer at the operating point with its bands."""
-    return Paragraph(" ".join(f"{sentence(text)}." for text in band_sheet.answer(found, uncertain)), strong=True)
+    return Paragraph(" ".join(f"{sentence(text)}." for text in band_sheet.answer(result, uncertain)), strong=True)
 
 
-def results(found: Run, uncertain: band.BandReport) -> Columns:
+def results(result: Run, uncertain: band.BandReport) -> Columns:
     """Torque, efficiency and power with their bands; of a nut how it gives way; and the contacts with screw and nut."""
     bands = uncertain.band.outputs if band_sheet.has_band(uncertain) else {}
-    tables = run_sheet.sheet(found, bands).of_kind(SheetTable)
+    tables = run_sheet.sheet(result, bands).of_kind(SheetTable)
     return Columns.of([report_blocks.table(table) for table in tables if not table.detail and table.name != "parts"])
 
 
-def parts(found: Run) -> list[Block]:
+def parts(result: Run) -> list[Block]:
     """The parts of the friction torque, the greatest first, as numbers and bars."""
-    tables = [report_blocks.table(table) for table in run_sheet.parts(found)]
+    tables = [report_blocks.table(table) for table in run_sheet.parts(result)]
     return [*tables] or [Paragraph("There is no friction torque to take apart: it is zero, or no number, here.")]
 
 
@@ -170,11 +170,11 @@ def vendor_rows(case: case_file.Case) -> list[Block]:
     return [] if near is None else [Paragraph(f"{sentence(near[0])}."), report_blocks.table(near[1])]
 
 
-def beware(found: Run) -> list[Block]:
+def beware(result: Run) -> list[Block]:
     """Limits of validity, assumptions, and neglected effects."""
-    warned = [f"Beware: {text}." for text in map(_warning, found.warnings)]
+    warned = [f"Beware: {text}." for text in map(_warning, result.warnings)]
     holds = Paragraph("All conditions of the model hold at the operating point.")
-    assumed = descriptions.assumed(found.case, found.ball_to_ball_force)
+    assumed = descriptions.assumed(result.case, result.ball_to_ball_force)
     return [Bullets(warned) if warned else holds, Bullets([f"{sentence(line)}." for line in assumed])]
 
 
@@ -246,14 +246,14 @@ def subtitle(case: case_file.Case) -> list[str]:
     return [*lines, f"{descriptions.operating_point(case)}; {descriptions.model_text(case)}"]
 
 
-def _drawing(found: Run) -> list[Block]:
-    ball = "the most loaded ball" if found.nut is not None else "a ball"
-    drawn = drawing(found)
-    touching = drawn_ball(found).contact
+def _drawing(result: Run) -> list[Block]:
+    ball = "the most loaded ball" if result.nut is not None else "a ball"
+    drawn = drawing(result)
+    touching = drawn_ball(result).contact
     slips = touching is not None and touching.slip is not None
     arrows = "; arrows: slip of the screw's surface over the ball" if slips else ""
     words = (
-        f"Drawing of {ball} between its grooves, and of its contact with the screw: {descriptions.title(found.case)}."
+        f"Drawing of {ball} between its grooves, and of its contact with the screw: {descriptions.title(result.case)}."
     )
     caption = (
         f"{sentence(ball)} between its grooves, to scale; how far the grooves reach is assumed"
@@ -262,22 +262,22 @@ def _drawing(found: Run) -> list[Block]:
     return [Picture(drawn, words, caption, 0.8)]
 
 
-def _pictures(found: Curves) -> list[Picture]:
+def _pictures(result: Curves) -> list[Picture]:
     # matplotlib takes its time: only for those who want a report
     from ballscrew.faces.report.curve_figures import pictures
     from ballscrew.questions.shared.chart_svg import named
 
-    speed, load = (f"{value:.6g}" for value in found.here)
+    speed, load = (f"{value:.6g}" for value in result.here)
     here = "the dashed line is the operating point"
     words = {
         "speed": f"Friction torque by its parts and film parameter over the speed; at {speed} rpm "
-        f"{_at(found.speeds, sum(found.parts.values()), found.here[0])} N m.",
+        f"{_at(result.speeds, sum(result.parts.values()), result.here[0])} N m.",
         "load": f"Efficiency and contact pressure over the load; at {load} N an efficiency of "
-        f"{_at(found.loads, found.efficiency, found.here[1])}.",
+        f"{_at(result.loads, result.efficiency, result.here[1])}.",
         "maps": f"Maps of efficiency and friction torque over load and speed; the operating point is {speed} rpm "
         f"and {load} N.",
     }
-    masks = {"speed": found.valid_over_speed, "load": found.valid_over_load, "maps": found.valid_everywhere}
+    masks = {"speed": result.valid_over_speed, "load": result.valid_over_load, "maps": result.valid_everywhere}
     veiled = {name: "" if np.all(mask) else " In grey: outside the model's validity." for name, mask in masks.items()}
     captions = {
         "speed": f"Friction torque, stacked from its parts, and film parameter over the speed at {load} N; {here}.",
@@ -286,7 +286,7 @@ def _pictures(found: Curves) -> list[Picture]:
     }
     return [
         Picture(named(svg, words[name]), words[name], captions[name] + veiled[name])
-        for name, svg in pictures(found).items()
+        for name, svg in pictures(result).items()
     ]
 
 
@@ -307,9 +307,9 @@ def origins(case: case_file.Case, inputs: list[Table]) -> Paragraph:
     return Paragraph(f"Where values are from: {input_tables.sources_in_words(case, inputs)}")
 
 
-def sources(case: case_file.Case, found: band.BandReport) -> list[tuple[str, str]]:
+def sources(case: case_file.Case, band_report: band.BandReport) -> list[tuple[str, str]]:
     """Sources of a case and its band, in words, each with its address."""
-    keys = [*case_file.references(case), *_OF_CHECKS, *(one.source for one in found.inputs.values())]
+    keys = [*case_file.references(case), *_OF_CHECKS, *(one.source for one in band_report.inputs.values())]
     keys += [] if case.row is None else bibliography.of_catalogue(case.row.source)
     if case.limits.diameter_speed_product is None:
         keys += (speed_limit_of(case.row) or GENERAL).sources

@@ -11,7 +11,7 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.faces.report import svg
 from ballscrew.faces.report.contact_geometry import DrawnBall, DrawnContact, SlipField
 from ballscrew.faces.report.svg import BLUE, FAINT, GREEN, RED, TEXT, TITLE, Panel, Point
-from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.laws.contact import RaceState
 
 #: The left end of the panel, the middle of the ellipse and what is above it, and the most its semi-axes may take.
 _LEFT, _MIDDLE, _ABOVE, _HALF_ACROSS, _HALF_ALONG = 254.0, 418.0, 56.0, 140.0, 76.0

@@ -42,7 +42,7 @@ _USUAL_LIMITS = Limits()
 
 def tables(case: Case) -> list[Table]:
     """All inputs, section by section."""
-    found = [
+    values = [
         Table("Screw", _COLUMNS, _screw(case), _TEXTS),
         Table("Lubricant", _COLUMNS, _lubricant(case), _TEXTS),
         Table("Operating point", _COLUMNS, _operation(case), _TEXTS),
@@ -53,13 +53,13 @@ def tables(case: Case) -> list[Table]:
         "Limits of the checks": _limits(case),
         **_moved(case),
     }
-    found += [Table(title, _COLUMNS, rows, _TEXTS) for title, rows in others.items() if rows]
-    return found
+    values += [Table(title, _COLUMNS, rows, _TEXTS) for title, rows in others.items() if rows]
+    return values
 
 
-def sources_in_words(case: Case, found: list[Table]) -> str:
+def sources_in_words(case: Case, result: list[Table]) -> str:
     """Legend of the words in the last column, of those that occur."""
-    used = {str(row[-1]) for table in found for row in table.rows}
+    used = {str(row[-1]) for table in result for row in table.rows}
     words = [f"{name}: {text}" for name, text in FROM_IN_WORDS.items() if name in used]
     row = [] if case.row is None else [f'the row is "{case.row.name}" ({case.row.source})']
     return f"{'; '.join([*words, *row])}."
@@ -219,7 +219,7 @@ def _moved(case: Case) -> dict[str, Rows]:
     parts |= {f"Segment {number}: {part.name}".rstrip(": "): part for number, part in enumerate(segments, start=1)}
     parts |= {bearing.name.capitalize(): bearing.element for bearing in case.bearings.values()}
     parts |= {"Guides": None if case.axis is None else case.axis.guides}
-    found: dict[str, Rows] = {}
+    rows: dict[str, Rows] = {}
     for title, part in parts.items():
         if part is not None:
             usual = _defaults(type(part))
@@ -228,8 +228,8 @@ def _moved(case: Case) -> dict[str, Rows]:
                 return DEFAULT if getattr(part, name) == usual.get(name) else CASE
 
             given = {name: quantity for name, quantity in fields_of(part).items() if getattr(part, name) is not None}
-            found[title] = _part(case, part, given, source, title.lower())
-    return found
+            rows[title] = _part(case, part, given, source, title.lower())
+    return rows
 
 
 def laws(case: Case) -> Table:

@@ -58,14 +58,14 @@ def content(cases: Sequence[Case], done: Done | None = None, samples: int | None
     """Contents of the report of several cases, A, B and so on, each at its own load and speed."""
     designs: list[Design] = []
     for place, (case, name) in enumerate(zip(cases, _LETTERS[: len(cases)], strict=True)):
-        found = run(case)
+        result = run(case)
 
         def told(finished: int, total: int, place: int = place) -> None:
             if done is not None:
                 done(int(ALL * (place + finished / max(total, 1)) / len(cases)), ALL)
 
         uncertain = band.band(case, BandOptions(samples=samples), told)
-        designs.append(Design(name, case, found, uncertain, checked("", case, known=found)))
+        designs.append(Design(name, case, result, uncertain, checked("", case, known=result)))
     sections = [
         Section("Answer", [_answer(one) for one in designs]),
         Section("Checks", [_checks(designs)]),

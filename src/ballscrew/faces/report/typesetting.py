@@ -25,11 +25,11 @@ def pdf(template: str, data: str, fonts: str, pages: int) -> bytes:
     """
     import typst
 
-    found = typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[fonts])
+    result = typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[fonts])
     source = template.encode()
 
     def compiler(size: str) -> Any:
-        return typst.Compiler(input=source, font_paths=found, sys_inputs={"report": data, "size": size})
+        return typst.Compiler(input=source, font_paths=result, sys_inputs={"report": data, "size": size})
 
     extents: dict[str, _Extent] = {}
     for size in _SIZES:

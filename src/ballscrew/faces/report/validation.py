@@ -48,9 +48,9 @@ EXPERIMENT = (
 )
 
 
-def report(request: Request, found: Sequence[Sequence[Entry]], table: Sequence[SummaryRow]) -> Report:
+def report(request: Request, rows: Sequence[Sequence[Entry]], table: Sequence[SummaryRow]) -> Report:
     """The report of all sets of a request, with the table of all makers."""
-    plain = [entries[0] for entries in found]
+    plain = [entries[0] for entries in rows]
     sections = [
         Section("In short", [Paragraph(text, strong=not place) for place, text in enumerate(_in_short(plain, table))]),
         *(_of_makers(plain, table) if table else ()),

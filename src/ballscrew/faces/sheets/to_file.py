@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.output.sheet import Sheet
 from ballscrew.questions.shared import chart_files, row_tables
 
 
-def check(paths: Iterable[Path]) -> None:
-    """Raise :class:`~ballscrew.basis.errors.InputError` now for files that could not be written later."""
-    *others, last = (*row_tables.KINDS, *chart_files.SUFFIXES)
+def check(paths: Iterable[Path], own_kinds: Sequence[str] = ()) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` now for files that could not be written later.
+
+    ``own_kinds`` are kinds of files that a question writes beside tables and pictures.
+    """
+    *others, last = (*row_tables.KINDS, *chart_files.SUFFIXES, *own_kinds)
     remedy = f"end it in {', '.join(others)} or {last}"
     unknown = [path for path in paths if path.suffix.lower() not in (*others, last)]
     raise_if_any([Fault("--to", "unknown kind of file", str(path), remedy) for path in unknown])
     for path in paths:
-        if path.suffix.lower() in row_tables.KINDS:
+        if path.suffix.lower() in own_kinds:
+            check_writable("--to", path)
+        elif path.suffix.lower() in row_tables.KINDS:
             row_tables.check_path(path)
         else:
             chart_files.check_picture(path)

@@ -90,8 +90,8 @@ def _recorded(
     """A function of inputs as a program, with its name and theirs."""
     tape = Tape(len(inputs))
     with np.errstate(all="ignore"):
-        found = of(**{one: tape.value(place) for place, one in enumerate(inputs)})
-    return name, inputs, merged_program(tape, found)
+        result = of(**{one: tape.value(place) for place, one in enumerate(inputs)})
+    return name, inputs, merged_program(tape, result)
 
 
 def _drawn(form: str, **given: Any) -> dict[str, Any]:
@@ -201,10 +201,10 @@ def _ratio(x: Any, coefficients: tuple[Sequence[float], Sequence[float]]) -> Any
 
 
 def _polynomial(x: Any, coefficients: Sequence[float]) -> Any:
-    found: Any = coefficients[0]
+    polynomial: Any = coefficients[0]
     for one in coefficients[1:]:
-        found = found * x + one
-    return found
+        polynomial = polynomial * x + one
+    return polynomial
 
 
 # -- the tables -----------------------------------------------------------------------------------
@@ -243,20 +243,20 @@ def uncertain_of(model: str, kind: str) -> list[dict[str, Any]]:
     Each has its name, the form of its uncertainty with the numbers of that, where ``above`` is given the bound at which
     it is switched off, and ``oil`` where it belongs to one that is of a "grade", or given by its "viscosity".
     """
-    found: dict[str, list[dict[str, Any]]] = {}
+    result: dict[str, list[dict[str, Any]]] = {}
     for oil, start in (("viscosity", kinds.PAPER), ("grade", _OF_GRADE)):
         case = kinds.case_of(start, model, kind)
         known = inputs_of_module(kinds.subject_of(case))
         usual = default_distributions(case.model, case.screw, case.lubricant, exact=case.exact)
         if not {*known, TEMPERATURE.name} >= usual.keys():
             return []
-        found[oil] = [_entry(case, name, why) for name, (_, why) in usual.items()]
+        result[oil] = [_entry(case, name, why) for name, (_, why) in usual.items()]
     rows: list[dict[str, Any]] = []
-    for oil, entries in found.items():
-        other = found["grade" if oil == "viscosity" else "viscosity"]
+    for oil, entries in result.items():
+        other = result["grade" if oil == "viscosity" else "viscosity"]
         rows += [entry if entry in other else {**entry, "oil": oil} for entry in entries]
     # both oils have the same order; where they part only one of them counts
-    places = {name: place for entries in found.values() for place, name in enumerate(one["name"] for one in entries)}
+    places = {name: place for entries in result.values() for place, name in enumerate(one["name"] for one in entries)}
     unique = {(row["name"], row.get("oil")): row for row in rows}
     return sorted(unique.values(), key=lambda row: places[row["name"]])
 

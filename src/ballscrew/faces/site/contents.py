@@ -79,13 +79,13 @@ def _described(quantity: Quantity) -> dict[str, Any]:
 
 def _values(subjects: Mapping[tuple[str, str], Configuration], model: str) -> dict[str, Any]:
     """The numbers of a model."""
-    found: dict[str, float] = {}
+    values: dict[str, float] = {}
     for (of, _), subject in subjects.items():
         if of == model:
-            found |= {
+            values |= {
                 n: float(subject.value_of(n)) for n in inputs_of_module(subject) if subject.inputs[n][0] == "model"
             }
-    return {"values": found}
+    return {"values": values}
 
 
 def _fields(subjects: Mapping[tuple[str, str], Configuration]) -> dict[str, Any]:

@@ -83,21 +83,23 @@ def values() -> dict[str, tuple[str, str]]:
     """
     needed = [name for row in JUDGED if row is not ALL_CHECKS for name in (*row.needs, *row.takes)]
     needed.append(_VALID)
-    found = {name: ("outputs", name) for name in (*_OF_RUN, *needed) if name in _OF_RUN or name.startswith("validity_")}
-    found |= {name: ("inputs", name) for name in _OF_SCREW} | {
+    result = {
+        name: ("outputs", name) for name in (*_OF_RUN, *needed) if name in _OF_RUN or name.startswith("validity_")
+    }
+    result |= {name: ("inputs", name) for name in _OF_SCREW} | {
         "young_modulus": ("inputs", "screw_material.young_modulus")
     }
-    found |= {name: ("derived", name) for name in _DERIVED}
-    found |= {name: ("given", name) for name in _OF_INSTALLATION}
-    found |= {name: ("given", name) for name in values_of_limits(Limits())}
-    found |= {f"at_rest.{name}": ("at_rest", name) for name in ("holding_torque", "valid")}
-    found |= {
+    result |= {name: ("derived", name) for name in _DERIVED}
+    result |= {name: ("given", name) for name in _OF_INSTALLATION}
+    result |= {name: ("given", name) for name in values_of_limits(Limits())}
+    result |= {f"at_rest.{name}": ("at_rest", name) for name in ("holding_torque", "valid")}
+    result |= {
         "flooded_torque": ("full_bath", "screw_torque"),
         "maximum_pressure": ("checked", "maximum_pressure"),
         "rule_of_maker": ("rule", "torque"),
         _VALID: ("checked", "valid"),
     }
-    return {name: found[name] for name in dict.fromkeys(needed)}
+    return {name: result[name] for name in dict.fromkeys(needed)}
 
 
 # -- the module -----------------------------------------------------------------------------------
@@ -185,19 +187,19 @@ def section(
     other_angle = where(is_alone, angle, other.angle)
     largest = where(other_carries_more, other.load, loaded.load)
     land = land_height(radius, where(other_angle > angle, other_angle, angle))
-    found: dict[str, Any] = {"ball_radius": radius, "land": land}
+    result: dict[str, Any] = {"ball_radius": radius, "land": land}
     for name, flank, own in (("loaded", loaded, angle), ("other", other, other_angle)):
-        found |= {f"{name}.touches": flank.touches, f"{name}.load": flank.load, f"{name}.angle": flank.angle}
+        result |= {f"{name}.touches": flank.touches, f"{name}.load": flank.load, f"{name}.angle": flank.angle}
         for body, outward in (("screw", -1), ("nut", 1)):
             arc = Arc.of(radius, conformities[body], own, loaded=name == "loaded", outward=outward)
             first, last = arc.around(contact_width(axes[body], flank.load, largest))
             places = {
                 "edge": arc.edge(land), "bottom": arc.bottom, "contact": arc.contact, "from": first, "to": last,
             }  # fmt: skip
-            found[f"{body}.{name}.radius"] = arc.radius
+            result[f"{body}.{name}.radius"] = arc.radius
             for what, (x, y) in places.items():
-                found |= {f"{body}.{name}.{what}.x": x, f"{body}.{name}.{what}.y": y}
-    return found
+                result |= {f"{body}.{name}.{what}.x": x, f"{body}.{name}.{what}.y": y}
+    return result
 
 
 # -- contents -------------------------------------------------------------------------------------

@@ -49,9 +49,9 @@ def module_of_calibrated(model: str, kind: str) -> KeptModule | None:
 
 def _module_of(subject: Configuration, outputs: Sequence[str]) -> KeptModule:
     name = name_of("module of the static page", subject, outputs, inputs_of_module(subject))
-    found = None if name is None else kept_module(name)
-    if found is not None:
-        return found
+    module = None if name is None else kept_module(name)
+    if module is not None:
+        return module
     made = KeptModule.of(module_of(subject, outputs, varying_of(subject)))
     if name is not None:
         keep(name, made.document, made.code)

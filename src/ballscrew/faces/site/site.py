@@ -134,14 +134,14 @@ def _chosen(models: Sequence[str], nuts: Sequence[str]) -> list[tuple[str, str]]
     ]
     if faults:
         raise InputError(*faults)
-    found = [pair for pair in kinds.structures() if (not models or pair[0] in models) and (not nuts or pair[1] in nuts)]
+    pairs = [pair for pair in kinds.structures() if (not models or pair[0] in models) and (not nuts or pair[1] in nuts)]
     # a screw without a nut is judged with one
-    judged = [(model, CHECKED_AS[kind]) for model, kind in found if kind in CHECKED_AS]
-    found += [pair for pair in judged if pair not in found]
-    if not found:
+    judged = [(model, CHECKED_AS[kind]) for model, kind in pairs if kind in CHECKED_AS]
+    pairs += [pair for pair in judged if pair not in pairs]
+    if not pairs:
         given = f"{', '.join(models)} with {', '.join(nuts)}"
         raise InputError(Fault("site", "no such model has such a nut", given, "leave one of them out"))
-    return found
+    return pairs
 
 
 def _digest(known: Mapping[str, Any], script: str) -> str:

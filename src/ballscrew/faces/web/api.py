@@ -38,16 +38,11 @@ from ballscrew.faces.web.bodies import (
     BandBody,
     CaseBody,
     CasesBody,
-    NeedBody,
-    NeedOfTable,
-    NeedOnly,
-    OptimiseBody,
     OwnNutBody,
     ReportBody,
     SweepBody,
     case_of,
     read,
-    refuse_paths,
 )
 from ballscrew.faces.web.endpoint_parts import (
     always,
@@ -64,11 +59,9 @@ from ballscrew.faces.web.endpoint_parts import (
     processed,
     queue_of,
     sent,
-    with_sheet,
 )
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
-from ballscrew.faces.web.sent_files import written
 from ballscrew.physics.sizing.catalogue import catalogue as shipped
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import response as band_answers
@@ -80,18 +73,8 @@ from ballscrew.questions.check.compute import with_nut_named
 from ballscrew.questions.fit import log_answer
 from ballscrew.questions.hand_over import answer as hand_over_answers
 from ballscrew.questions.hand_over import document as hand_over_documents
-from ballscrew.questions.optimise import answer as optimise_documents
-from ballscrew.questions.optimise import compute as searches
-from ballscrew.questions.optimise import response as optimise_answers
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
-from ballscrew.questions.optimise.options import OptimiseOptions
-from ballscrew.questions.optimise.sheet import sheet as optimise_sheet
 from ballscrew.questions.run import response as run_answers
-from ballscrew.questions.select import answer as selection_documents
-from ballscrew.questions.select import compute as selections
-from ballscrew.questions.select import response as select_answers
-from ballscrew.questions.select.need import Need, need_of
-from ballscrew.questions.select.options import SelectOptions
 from ballscrew.questions.shared import option_values, schema_answer
 from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweeps
@@ -208,73 +191,6 @@ async def report(
 
     # not kept: it may have the date of today
     return await cancellable(request, processed(request, work))
-
-
-# -- of a need --------------------------------------------------------------------------------------
-
-
-@post(router, "/select", NeedBody, select_answers.Select)
-def select(body: NeedOfTable, done: Deadline) -> Response:
-    """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``.
-
-    As a job it may take longer than a request that is waited for, tells how far it is, and shows candidates meanwhile.
-    """
-    options, need = option_values.read(SelectOptions, dict(body)), _need(body)
-    with written({} if body.table is None else {"table": body.table}) as paths:
-        selection = selections.select(
-            need,
-            rows=paths.get("table"),
-            words=options.words or None,
-            keep_going=bool(paths),
-            complete=options.complete,
-            done=done,
-            found_one=lambda candidate: done.row(as_bytes(selection_documents.row_document(candidate))),
-        )
-    return as_json(selection_documents.document(selection))
-
-
-@post(router, "/select/plan", NeedBody, select_answers.Plan, is_quick=lambda body: body.table is None)
-def select_plan(body: NeedOfTable, _: Deadline) -> Response:
-    """What a selection would do: its candidates, its time, and the inputs without which checks are not judged."""
-    options, need = option_values.read(SelectOptions, dict(body)), _need(body)
-    with written({} if body.table is None else {"table": body.table}) as paths:
-        plan = selections.plan(need, rows=paths.get("table"), words=options.words or None, keep_going=bool(paths))
-    return as_json(selection_documents.plan_document(plan))
-
-
-@post(router, "/optimise", OptimiseBody, optimise_answers.Optimise)
-def optimise(body: NeedOnly, done: Deadline) -> Response:
-    """Free geometries for a need, the front of the best: the document of ``ballscrew optimise --json``.
-
-    As a job it may take longer than a request that is waited for, and tells how far it is.
-    """
-    options, need = option_values.read(OptimiseOptions, dict(body)), _need(body)
-    search = searches.optimise(need, **_search(options), seed=options.seed, done=done)
-    return with_sheet(optimise_documents.document(search), optimise_sheet(search))
-
-
-@post(router, "/optimise/plan", OptimiseBody, optimise_answers.OptimisePlan, is_quick=always)
-def optimise_plan(body: NeedOnly, _: Deadline) -> Response:
-    """What an optimisation would do: its designs, and about its time."""
-    options, need = option_values.read(OptimiseOptions, dict(body)), _need(body)
-    plan = searches.plan(need, **_search(options))
-    return as_json({"designs": plan.rigid + plan.elastic, "members": plan.members, "seconds": plan.seconds})
-
-
-def _need(body: NeedOnly) -> Need:
-    refuse_paths(body.need)
-    return need_of(body.need)
-
-
-def _search(options: OptimiseOptions) -> dict[str, Any]:
-    """What both a search and its plan take."""
-    return {
-        "objectives": [name.replace("-", "_") for name in options.objectives] or None,
-        "population": options.population,
-        "generations": options.generations,
-        "members": options.members,
-        "quantile": options.quantile,
-    }
 
 
 # -- of a catalogue, and of the program -------------------------------------------------------------

@@ -27,8 +27,6 @@ from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.hand_over.options import HandOverOptions
-from ballscrew.questions.optimise.options import OptimiseOptions
-from ballscrew.questions.select.options import SelectOptions
 from ballscrew.questions.shared.options import body_fields
 from ballscrew.questions.sweep.options import SweepOptions
 
@@ -71,43 +69,15 @@ class CaseBody(Body):
     case: Tables
 
 
-def body_of(name: str, base: type[B], options: type, words: str) -> type[B]:
-    """A body with a field for each option of a dataclass beside those of another body."""
-    return create_model(name, __base__=base, __doc__=words, **body_fields(options))
-
-
-class NeedOnly(Body):
-    """A need: the tables of a file of ``ballscrew optimise`` as JSON."""
+class NeedBody(Body):
+    """A need: the tables of a file of ``ballscrew select`` as JSON."""
 
     need: Tables
 
 
-OptimiseBody = body_of(
-    "OptimiseBody",
-    NeedOnly,
-    OptimiseOptions,
-    "A need: the tables of a file of ``ballscrew optimise`` as JSON, and the options of the search.",
-)
-
-
-class NeedOfTable(NeedOnly):
-    """A need: the tables of a file of ``ballscrew select`` as JSON, and a table of one's own, not the catalogue."""
-
-    most_bytes: ClassVar[int] = MOST_FILE_BYTES
-    files: ClassVar[tuple[str, ...]] = ("table",)
-
-    table: SentFile | None = None
-
-
-NeedBody = body_of(
-    "NeedBody",
-    NeedOfTable,
-    SelectOptions,
-    """A need: the tables of a file of ``ballscrew select`` as JSON, and words that rows must have.
-
-``table`` is a table of one's own in place of the catalogue.
-A ``complete`` list has the full model also of those that their loads alone rule out.""",
-)
+def body_of(name: str, base: type[B], options: type, words: str) -> type[B]:
+    """A body with a field for each option of a dataclass beside those of another body."""
+    return create_model(name, __base__=base, __doc__=words, **body_fields(options))
 
 
 class OwnNutBody(Body):

@@ -45,7 +45,7 @@ _MOVING: Mapping[str, Any] = {
 _TEXT = 'lubricant.grade = "ISO VG 68"\nscrew.catalogue = "hiwin-40-20k4"\n'
 #: Bodies that have no case, each with its name.
 _WITHOUT_CASE: Mapping[str, tuple[str, Mapping[str, Any]]] = {
-    "NeedBody": ("few", {"need": {**_NEED, "preload": "2 %"}, "words": "rexroth 32x"}),
+    "SelectBody": ("few", {"need": {**_NEED, "preload": "2 %"}, "words": "rexroth 32x"}),
     "OptimiseBody": ("few", {"need": {**_NEED, "optimise": {"elastic_generations": 0}}, **_FEW}),
     "OwnNutBody": ("few", {"numbers": {"d0": "40 mm", "lead": "10 mm", "turns": "2x2.5", "Ca": "52.7 kN"}}),
     "OpenBody": ("case", {"file": {"name": "case.toml", "text": _TEXT}}),

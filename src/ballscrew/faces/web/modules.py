@@ -31,7 +31,7 @@ from ballscrew.exports.wasm_modules import (
     module_of_solver,
     oils,
 )
-from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.laws.contact import RaceState
 
 #: What the page shows of an answer, where the nut has it.
 SHOWN = (

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import inspect
-from collections.abc import Mapping
+from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +13,17 @@ from fastapi import APIRouter
 from pydantic import Field, create_model
 from starlette.responses import Response
 
-from ballscrew.faces.web.bodies import MOST_LOG_BYTES, CaseBody, SentCase, SentFile
-from ballscrew.faces.web.endpoint_parts import post, with_sheet
+from ballscrew.faces.web.bodies import (
+    MOST_FILE_BYTES,
+    MOST_LOG_BYTES,
+    Body,
+    CaseBody,
+    NeedBody,
+    SentCase,
+    SentFile,
+    refuse_paths,
+)
+from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, post, with_sheet
 from ballscrew.faces.web.limits import check_options
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
@@ -24,16 +34,18 @@ from ballscrew.questions.shared.question import Question, Request, Sent
 router = APIRouter()
 
 
-def body_of(question: Question) -> type[CaseBody]:
-    """The body of a question: a case, the files that it reads, and its options as they are written."""
+def body_of(question: Question) -> type[Body]:
+    """The body of a question: a case or a need, the files that it reads, and its options as they are written."""
+    has_need = any(file.is_need for file in question.reads)
     fields: dict[str, Any] = {file.name: _field(file) for file in question.endpoint.files}
     for options in question.sent_options:
         fields |= body_fields(options)
-    words = ["A case", *(f"``{name}``" for name in fields)]
-    body = create_model(_title(question), __base__=CaseBody, __doc__=", ".join(words) + ".", **fields)
+    words = ["A need" if has_need else "A case", *(f"``{name}``" for name in fields)]
+    base = NeedBody if has_need else CaseBody
+    body = create_model(_title(question), __base__=base, __doc__=", ".join(words) + ".", **fields)
     body.files = tuple(file.name for file in question.endpoint.files)
     if body.files:
-        body.most_bytes = MOST_LOG_BYTES
+        body.most_bytes = MOST_FILE_BYTES if has_need else MOST_LOG_BYTES
     return body
 
 
@@ -48,11 +60,24 @@ def _field(file: Sent) -> Any:
     return (SentFile | None, None) if file.is_optional else (SentFile, ...)
 
 
-def answer(question: Question, body: CaseBody, done: Deadline) -> Response:
+def answer(question: Question, body: Body, done: Deadline) -> Response:
     """The answer to a body of a question: its document with its sheet."""
+    with _request(question, body, done) as request:
+        result = question.prepare(request).answer(done)
+        return with_sheet(result.document(), result.sheet)
+
+
+@contextlib.contextmanager
+def _request(question: Question, body: Body, done: Deadline) -> Generator[Request]:
+    """The request of a body, whose files are there meanwhile."""
     values = dict(body)
-    check_options(question.sent_options, values)
-    options = _defaults(question) | {name: values[name] for cls in question.sent_options for name in options_of(cls)}
+    if isinstance(body, CaseBody):  # options of a search have bounds of their own
+        check_options(question.sent_options, values)
+    options = {
+        **_defaults(question),
+        **question.endpoint.written,
+        **{name: values[name] for cls in question.sent_options for name in options_of(cls)},
+    }
     files: dict[str, list[Path]] = {file.name: [] for file in question.reads}
     with written(_contents(question, values)) as paths:
         for file in question.endpoint.files:
@@ -61,9 +86,15 @@ def answer(question: Question, body: CaseBody, done: Deadline) -> Response:
                 files[file.stands_for] += sent
             elif sent:
                 options[file.stands_for] = str(sent[0])
-        work = question.prepare(Request(files=files, case=SentCase(body.case), written=options))
-        result = work.answer(done)
-        return with_sheet(result.document(), result.sheet)
+        if isinstance(body, NeedBody):
+            refuse_paths(body.need)
+        yield Request(
+            files=files,
+            case=SentCase(body.case) if isinstance(body, CaseBody) else None,
+            need=body.need if isinstance(body, NeedBody) else None,
+            written=options,
+            send=lambda part: done.row(as_bytes(part)),
+        )
 
 
 def _defaults(question: Question) -> dict[str, Any]:
@@ -84,17 +115,31 @@ def _contents(question: Question, values: Mapping[str, Any]) -> dict[str, SentFi
 
 
 def _add(question: Question) -> None:
-    """Add the address of a question."""
+    """Add the addresses of a question."""
     work = functools.partial(answer, question)
-    help = inspect.cleandoc(question.help).partition("\n\n")[0]
+    name, help = question.name.replace("-", "_"), inspect.cleandoc(question.help).partition("\n\n")[0]
+    words = f"{help} The document of ``ballscrew {question.name} --json``, with its sheet."
+    body, plan = BODIES[question.name], question.endpoint.plan
+    post(router, f"/{question.name}", body, question.endpoint.response(), name=name, description=words)(work)
+    if plan is None:
+        return
+
+    def planned(body: Body, done: Deadline) -> Response:
+        with _request(question, body, done) as request:
+            return as_json(plan.document(request))
+
+    def is_quick(body: Body) -> bool:
+        return not _contents(question, dict(body))
+
     post(
         router,
-        f"/{question.name}",
-        BODIES[question.name],
-        question.endpoint.response(),
-        name=question.name.replace("-", "_"),
-        description=f"{help} The document of ``ballscrew {question.name} --json``, with its sheet.",
-    )(work)
+        f"/{question.name}/plan",
+        body,
+        plan.response(),
+        name=f"{name}_plan",
+        description=plan.help,
+        is_quick=is_quick,
+    )(planned)
 
 
 BODIES = {question.name: body_of(question) for question in QUESTIONS}

@@ -23,7 +23,6 @@ from ballscrew.cases.screw_tables.catalogue import EXAMPLE_PRELOADS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.faces.web.starts import starts
-from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.nut import Bodies, Scatter
 from ballscrew.physics.components.operating_state import OperatingState
@@ -31,6 +30,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.moving_balls.friction_states import Dahl, LuGre
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits

@@ -85,8 +85,8 @@ def text_of(where: str, text: str, heading: Heading) -> str | Fault:
     """A cell that is no number: as it stands, or what it means where the column has words of its own."""
     words = heading.column.words
     known = ", ".join(f'"{word}"' for word in dict.fromkeys(words.values()))
-    found = words.get(text.casefold()) if words else text
-    return Fault(where, "is not a word that is known", text, f"write one of {known}") if found is None else found
+    result = words.get(text.casefold()) if words else text
+    return Fault(where, "is not a word that is known", text, f"write one of {known}") if result is None else result
 
 
 def _unit_behind(text: str) -> str:

@@ -129,7 +129,7 @@ class Heading:
 def bare(name: str) -> str:
     """A name without what does not count: capitals, blanks, hyphens, subscripts."""
     plain = unicodedata.normalize("NFKC", name).casefold().translate(_LETTERS)
-    return "".join(_WORDS.get(found[0], found[0]) for found in _WORD.finditer(plain))
+    return "".join(_WORDS.get(each[0], each[0]) for each in _WORD.finditer(plain))
 
 
 def known_heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
@@ -152,8 +152,8 @@ def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | No
         return Heading(written, column, place, _bracketed(unit, column) if bracketed else _unbracketed(name, column))
     if meant or bracketed:
         return None
-    found = [Heading(written, column, place, behind) for column in columns if (behind := _unit_behind(name, column))]
-    return found[0] if len(found) == 1 else None
+    headings = [Heading(written, column, place, behind) for column in columns if (behind := _unit_behind(name, column))]
+    return headings[0] if len(headings) == 1 else None
 
 
 def _bracketed(unit: str, column: Column) -> str:
@@ -209,25 +209,25 @@ def _scale(where: str, unit: str, quantity: Quantity) -> tuple[float, float] | F
 
 
 def headings_in(
-    path: Path, found: Sequence[Record], columns: Sequence[Column], within: int = HEADINGS_WITHIN
+    path: Path, records: Sequence[Record], columns: Sequence[Column], within: int = HEADINGS_WITHIN
 ) -> tuple[int, list[Heading]]:
     """The row of the headings, and the headings of known columns. Raises
     :class:`~ballscrew.basis.errors.InputError`.
     """
-    if not found:
+    if not records:
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
-    if (widest := max(len(record.cells) for record in found)) > MOST_COLUMNS:
+    if (widest := max(len(record.cells) for record in records)) > MOST_COLUMNS:
         remedy = f"{units.grouped(MOST_COLUMNS)} at most: keep those that are needed"
         raise InputError(Fault(str(path), "has too many columns", f"{widest:,}", remedy))
     best: tuple[int, list[Heading]] = (0, [])
-    for number, record in enumerate(found[:within]):
+    for number, record in enumerate(records[:within]):
         headings = [known_heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
         known = [heading for heading in headings if heading is not None]
         if len(known) > len(best[1]):
             best = number, known
     if not best[1]:
         needed = ", ".join(column.example for column in columns if column.required)
-        row = likely_headings(found[:within], columns)
+        row = likely_headings(records[:within], columns)
         raise InputError(
             Fault(
                 str(path),
@@ -239,14 +239,14 @@ def headings_in(
     return best
 
 
-def likely_headings(found: Sequence[Record], columns: Sequence[Column]) -> Record:
+def likely_headings(records: Sequence[Record], columns: Sequence[Column]) -> Record:
     """The row that has most known headings, or else most cells: what a logger writes above it about itself has few."""
 
     def rank(record: Record) -> tuple[int, int]:
         known = [known_heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
         return sum(heading is not None for heading in known), sum(cell != "" for cell in record.cells)
 
-    return max(found, key=rank)
+    return max(records, key=rank)
 
 
 def checked(
@@ -258,11 +258,11 @@ def checked(
     for heading in headings:
         twin = next((other for other in known if other.column is heading.column), None)
         where = f'{path.name} column "{heading.written}"'
-        found = _scaled(where, heading, body) if twin is None else _twice(where, heading, twin)
-        if isinstance(found, Fault):
-            faults.append(found)
+        result = _scaled(where, heading, body) if twin is None else _twice(where, heading, twin)
+        if isinstance(result, Fault):
+            faults.append(result)
         else:
-            known.append(found)
+            known.append(result)
     missing = [column for column in columns if column.required and all(h.column is not column for h in headings)]
     raise_if_any([*(_missing(path, column, headings, first) for column in missing), *faults])
     return known
@@ -324,8 +324,8 @@ def _missing(path: Path, column: Column, headings: Sequence[Heading], first: Rec
 def unused(first: Record, headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
     """Columns that hold something and are not known."""
     known = {heading.place for heading in headings}
-    found = {place: f'"{cell}"' for place, cell in enumerate(first.cells) if cell != "" and place not in known}
+    values = {place: f'"{cell}"' for place, cell in enumerate(first.cells) if cell != "" and place not in known}
     for record in body:
         nameless = (place for place, cell in enumerate(record.cells[: len(first.cells)]) if cell != "")
-        found |= {place: f"column {place + 1} (no heading)" for place in nameless if place not in {*known, *found}}
-    return [found[place] for place in sorted(found)]
+        values |= {place: f"column {place + 1} (no heading)" for place in nameless if place not in {*known, *values}}
+    return [values[place] for place in sorted(values)]

@@ -62,20 +62,20 @@ class Table:
 
 def read(path: Path, columns: Sequence[Column]) -> Table:
     """The table of a file. Raises :class:`~ballscrew.basis.errors.InputError` for faults of the table as a whole."""
-    found = records(path, lambda cell: known_heading_of(cell, 0, columns) is not None)
-    start, matched = headings_in(path, found, columns)
-    body = found[start + 1 :]
-    headings = checked(path, matched, found[start], body, columns)
+    result = records(path, lambda cell: known_heading_of(cell, 0, columns) is not None)
+    start, matched = headings_in(path, result, columns)
+    body = result[start + 1 :]
+    headings = checked(path, matched, result[start], body, columns)
     if not body:
         raise InputError(Fault(str(path), "has no rows below its headings", "", "give one row a screw or value"))
     table = Table(
-        path.name, {h.column.name: h for h in headings}, (), (), len(body), unused(found[start], headings, body)
+        path.name, {h.column.name: h for h in headings}, (), (), len(body), unused(result[start], headings, body)
     )
     decimal = decimals.evidence(_texts(headings, body))
     rows: list[Row] = []
     faults: list[tuple[int, Fault]] = []
     for record in body:
-        row = _row(table, record, found[start].cells, decimal)
+        row = _row(table, record, result[start].cells, decimal)
         if isinstance(row, Row):
             rows.append(row)
         else:
@@ -89,22 +89,22 @@ def made(table: Table, make: Callable[[Row], T], keep_going: bool = False) -> tu
     Faults that ``make`` raises are faults of the row. Raises :class:`~ballscrew.basis.errors.InputError` if there
     is any fault; with ``keep_going`` only if no row is good.
     """
-    found: list[T] = []
+    values: list[T] = []
     faults = list(table.faults)
     for row in table.rows:
         try:
-            found.append(make(row))
+            values.append(make(row))
         except InputError as error:
             faults += [(row.line, table.fault(row, fault)) for fault in error.faults]
     ordered = [fault for _, fault in sorted(faults, key=lambda numbered: numbered[0])]
-    if not (keep_going and found):
+    if not (keep_going and values):
         raise_if_any(ordered)
     lines = [str(fault) for fault in ordered]
     if ordered:
-        lines.append(f"{table.file}: {table.count - len(found)} of {table.count} rows left out")
+        lines.append(f"{table.file}: {table.count - len(values)} of {table.count} rows left out")
     if table.unused:
         lines.insert(0, f"{table.file}: columns not used: {', '.join(table.unused)}")
-    return found, lines
+    return values, lines
 
 
 # -- cells ----------------------------------------------------------------------------------------

@@ -50,14 +50,14 @@ def records(path: Path, is_heading: Callable[[str], bool]) -> list[Record]:
     :class:`~ballscrew.basis.errors.InputError` for what is no table.
     """
     data = _bytes(path)
-    found = (
+    result = (
         _of_spreadsheet(path, data)
         if is_spreadsheet(path, data)
         else in_text(path, data.decode(encoding_of(path, data)), is_heading)
     )
-    if not found:
+    if not result:
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
-    return found
+    return result
 
 
 def is_spreadsheet(path: Path, begin: bytes) -> bool:
@@ -101,7 +101,7 @@ def in_text(path: Path, text: str, is_heading: Callable[[str], bool], within: in
     line = 0
     try:
         delimiter = delimiter_of(text, is_heading, within)
-        found: list[Record] = []
+        result: list[Record] = []
         lines = iter(io.StringIO(text, newline=""))
         for first in lines:
             line += 1
@@ -111,12 +111,12 @@ def in_text(path: Path, text: str, is_heading: Callable[[str], bool], within: in
             reader = csv.reader(itertools.chain([first], lines), delimiter=delimiter, strict=True)
             cells = [cell.strip() for cell in next(reader)]
             if any(cells):
-                found.append(Record(line, cells))
+                result.append(Record(line, cells))
             line += reader.line_num - 1
     except csv.Error as error:
         where = f"{path.name} row {line}" if line else str(path)
         raise InputError(Fault(where, "cannot be split into cells", str(error), "check its quotes")) from None
-    return found
+    return result
 
 
 def _counts(line: str) -> bool:

@@ -29,9 +29,9 @@ def rows_of(data: bytes) -> list[tuple[int, list[Any]]]:
             sheet = workbook.get_sheet_by_name(name)
             _check_extent(sheet.end)
             rows = sheet.to_python(skip_empty_area=False)
-            found = [(line, cells) for line, row in enumerate(rows, start=1) if _counts(cells := _stripped(row))]
-            if found:
-                return found
+            pairs = [(line, cells) for line, row in enumerate(rows, start=1) if _counts(cells := _stripped(row))]
+            if pairs:
+                return pairs
     except CalamineError as error:
         raise ValueError(str(error)) from None
     return []

@@ -169,8 +169,8 @@ class DataSheet(ByValue):
 
 def viscosity_index(kinematic_viscosity_40: KinematicViscosity, kinematic_viscosity_100: KinematicViscosity) -> Ratio:
     """The viscosity index of two numbers by ASTMD2270 (ISO 2909); NaN below 2 mm²/s at 100 °C."""
-    found = np.vectorize(_viscosity_index, otypes=[float])(kinematic_viscosity_40, kinematic_viscosity_100)
-    return found if found.ndim else float(found)
+    values = np.vectorize(_viscosity_index, otypes=[float])(kinematic_viscosity_40, kinematic_viscosity_100)
+    return values if values.ndim else float(values)
 
 
 def _viscosity_index(U: float, Y: float) -> float:

@@ -207,12 +207,12 @@ class Scatter(ByValue):
     def of(self, balls: int, angles: Angle | None = None) -> Deviations:
         """The deviations of so many ``balls``, at ``angles`` along the helix (rad) where the grooves deviate."""
         seed = int(self.seed)
-        found = Deviations.scattered(balls, seed=seed, ball_diameter=self.ball_diameter, lead=self.lead)
+        deviations = Deviations.scattered(balls, seed=seed, ball_diameter=self.ball_diameter, lead=self.lead)
         if angles is None or not np.any(self.groove):
-            return found
+            return deviations
         # a stream of its own: the balls of a seed stay those they were
         phase = float(np.random.default_rng((seed, 1)).uniform(0.0, 2.0 * np.pi))
-        return found._replace(lead=found.lead + Deviations.once_a_turn(angles, self.groove, phase).lead)
+        return deviations._replace(lead=deviations.lead + Deviations.once_a_turn(angles, self.groove, phase).lead)
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -220,7 +220,7 @@ class NutParts(ByValue):
     """What every nut may have besides its balls and its preload.
 
     Without bodies, screw and nut are rigid between the balls. Losses are laws of torque besides the balls by name, as
-    ``{"seals": Seals(seal_torque=0.2)}`` (:mod:`ballscrew.physics.components.nut_losses`).
+    ``{"seals": Seals(seal_torque=0.2)}`` (:mod:`ballscrew.physics.laws.nut_losses`).
     """
 
     #: Screw and nut between the balls; without them both are rigid there.
@@ -255,9 +255,9 @@ class NutParts(ByValue):
     def parts(self) -> dict[str, Any]:
         """The nut and its parts that have quantities, by their sections in a case file."""
         scatter = self.deviations if isinstance(self.deviations, Scatter) else None
-        found = {"nut": self, "bodies": self.bodies, "deviations": scatter}
-        found |= {f"losses.{name}": law for name, law in self.losses.items() if dataclasses.is_dataclass(law)}
-        return {section: part for section, part in found.items() if part is not None}
+        values = {"nut": self, "bodies": self.bodies, "deviations": scatter}
+        values |= {f"losses.{name}": law for name, law in self.losses.items() if dataclasses.is_dataclass(law)}
+        return {section: part for section, part in values.items() if part is not None}
 
     def value_of(self, name: str) -> Any:
         """The value of an input by ``name``: ``preload``, ``nut.preload``, or ``losses.seals.seal_torque``."""

@@ -168,8 +168,8 @@ def _nearest_grade(grade: str, oils: Iterable[str]) -> str:
     numbers = {float(name.rpartition(" ")[2]): name for name in oils if name.startswith("ISO VG ")}
     if number is None or not numbers:
         return nearest(grade, oils)
-    found = numbers[min(numbers, key=lambda n: abs(math.log(n / float(number[1]))))]
-    return f'did you mean "{found}"?'
+    result = numbers[min(numbers, key=lambda n: abs(math.log(n / float(number[1]))))]
+    return f'did you mean "{result}"?'
 
 
 def grades() -> list[str]:

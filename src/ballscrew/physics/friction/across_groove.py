@@ -16,7 +16,6 @@ import numpy as np
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio
-from ballscrew.physics.components.contact import Contact
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Deviations, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
@@ -24,6 +23,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import across_groove, deflection
 from ballscrew.physics.friction.balls import BallFriction
 from ballscrew.physics.friction.loaded_balls import LoadedBalls, loads_of
+from ballscrew.physics.laws.contact import Contact
 from ballscrew.physics.solvers.load_distribution import (
     BallLoads,
     ball_loads,
@@ -86,8 +86,8 @@ def in_motion(model: Friction, screw: BallScrew, lubricant: Lubricant, state: Op
     moving = dataclasses.replace(screw, nut=dataclasses.replace(nut, set_at_rest=False))
     at_rest, idle = moving, OperatingState(0.0 * state.axial_load, state.screw_speed, state.temperature)
     for _ in range(ROUNDS):
-        found = model.under(loads_of(moving, idle.axial_load), moving, lubricant, idle)
-        tangent = sum(friction_across(kind) for kind in found.kinds) / len(found.kinds)
+        result = model.under(loads_of(moving, idle.axial_load), moving, lubricant, idle)
+        tangent = sum(friction_across(kind) for kind in result.kinds) / len(result.kinds)
         preload = preload_off_line(at_rest, namespace(tangent).arctan(tangent))
         moving = dataclasses.replace(moving, nut=dataclasses.replace(nut, preload=preload, set_at_rest=False))
     return moving
@@ -154,9 +154,9 @@ def _of_elastic_bodies(screw: BallScrew, beta: Angle) -> Force:
     for place in np.ndindex(force.shape):
         at_rest = float(half(preload[place], 0.0).deflection)
         for _ in range(NEWTON_STEPS):
-            found = half(force[place], growth[place])
-            too_far = float(found.deflection) - earlier[place] - at_rest + middle * (force[place] - preload[place])
-            rigidity = float(found.rigidity)
+            result = half(force[place], growth[place])
+            too_far = float(result.deflection) - earlier[place] - at_rest + middle * (force[place] - preload[place])
+            rigidity = float(result.rigidity)
             softness = 1 / rigidity if rigidity else np.inf  # of balls that just touch
             force[place] = max(force[place] - too_far / (softness + middle), 0.0)
     return force[()]

@@ -10,17 +10,17 @@ import numpy as np
 
 from ballscrew.basis.arrays import lazy
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Mask, Power, Ratio, Speed, Torque
-from ballscrew.physics.components.balance import Resistances, ball_forces
-from ballscrew.physics.components.chain_force import BallInCircuit, force_between_balls
-from ballscrew.physics.components.conditions import Motion
-from ballscrew.physics.components.contact import Contact, ContactLaws, RaceState, rolling_contact
-from ballscrew.physics.components.frame import Frame
-from ballscrew.physics.components.laws import BallChain, RaceTorqueLaw
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import dissipation, equilibrium, geometry, kinematics
 from ballscrew.physics.equations.rolling import nut_pressure_force, screw_pressure_force
+from ballscrew.physics.laws.balance import Resistances, ball_forces
+from ballscrew.physics.laws.ball_chain import BallInCircuit, force_between_balls
+from ballscrew.physics.laws.conditions import Motion
+from ballscrew.physics.laws.contact import Contact, ContactLaws, RaceState, rolling_contact
+from ballscrew.physics.laws.frame import Frame
+from ballscrew.physics.laws.protocols import BallChain, RaceTorqueLaw
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.slip import BallProblem, ContactSlip, Slip
 
 #: The mechanisms a torque is made of, and what each is called in words.

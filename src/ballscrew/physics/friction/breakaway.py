@@ -11,10 +11,7 @@ import numpy as np
 from ballscrew.basis.arrays import as_array, lazy, namespace, where
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
 from ballscrew.basis.quantities import Angle, Force, Info, Length, Mask, Ratio, RotationalStiffness, Stiffness, Torque
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew, Raceway
 from ballscrew.physics.equations import across_groove, kinematics, presliding
@@ -23,6 +20,9 @@ from ballscrew.physics.friction.across_groove import arms_of, in_motion
 from ballscrew.physics.friction.loaded_balls import LoadedPair
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.frame import Frame
+from ballscrew.physics.laws.friction import LoadSharing
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: Boundary friction at the start, SKF2018; in motion it has 0.12.
@@ -94,11 +94,11 @@ class Breakaway:
     def _sum_of(self, stiffness: Callable[[BallScrew, Frame, LoadedPair, Force], RotationalStiffness]) -> Any:
         """The stiffness of all flank pairs of all balls; a pair that has lifted off holds nothing."""
         screw, frame = self.at_rest.ball_screw, self.at_rest.frame
-        found: list[Any] = []
+        values: list[Any] = []
         for kind in self.at_rest.kinds:
             for pair in kind.pairs:
-                found.append(kind.total(where(pair.load > 0, stiffness(screw, frame, pair, kind.load), 0.0)))
-        return sum(found)
+                values.append(kind.total(where(pair.load > 0, stiffness(screw, frame, pair, kind.load), 0.0)))
+        return sum(values)
 
     @lazy
     def presliding_angle(self) -> Annotated[Angle, Info(r"\theta_b", "rotation before the contacts slip", "deg")]:

@@ -16,9 +16,9 @@ from typing import Any
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Ratio
-from ballscrew.physics.components.laws import ProportionalBallForce, opposed_neighbours
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce, opposed_neighbours
 
 #: The numbers that a calibration sets, and where they stand in a model.
 PARAMETERS: Mapping[str, str] = {
@@ -84,8 +84,8 @@ def is_of_maker(maker: str, make: str) -> bool:
 
 def calibration_of_make(make: str) -> Calibration | None:
     """The calibration of a maker, of several the one of most numbers; None of a maker that has none."""
-    found = [one for one in calibrations().values() if is_of_maker(one.maker, make)]
-    return max(found, key=lambda one: len(one.fitted), default=None)
+    values = [one for one in calibrations().values() if is_of_maker(one.maker, make)]
+    return max(values, key=lambda one: len(one.fitted), default=None)
 
 
 @functools.cache
@@ -106,7 +106,7 @@ def calibration(name: str) -> Calibration:
     return known[name]
 
 
-def calibrated(model: FrictionModel, found: Calibration) -> FrictionModel:
+def calibrated(model: FrictionModel, result: Calibration) -> FrictionModel:
     """The model with the numbers that a calibration fitted, and with neighbours that rub as in the fitted model.
 
     In a model whose neighbours brake, the fitted force between balls would brake with all of it, ten times too much.
@@ -114,9 +114,9 @@ def calibrated(model: FrictionModel, found: Calibration) -> FrictionModel:
     between the balls is imposed.
     """
     friction: Any = model.friction
-    own = getattr(friction, "boundary_friction_coefficient", found.boundary_friction_coefficient)
-    fitted = "boundary_friction_coefficient" in found.fitted
-    return with_parameters(model, found.boundary_friction_coefficient if fitted else own, found.share_of_load)
+    own = getattr(friction, "boundary_friction_coefficient", result.boundary_friction_coefficient)
+    fitted = "boundary_friction_coefficient" in result.fitted
+    return with_parameters(model, result.boundary_friction_coefficient if fitted else own, result.share_of_load)
 
 
 def with_parameters(model: FrictionModel, boundary_friction_coefficient: Ratio, share_of_load: Ratio) -> FrictionModel:

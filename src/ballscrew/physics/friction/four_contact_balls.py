@@ -10,14 +10,14 @@ import numpy as np
 
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Mask, Power, Ratio, Torque
-from ballscrew.physics.components.chain_force import BallInCircuit, force_between_balls
-from ballscrew.physics.components.conditions import Motion
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import kinematics
 from ballscrew.physics.friction.balls import MECHANISMS, BallFriction, BallModel, ball_contacts, ball_friction
+from ballscrew.physics.laws.ball_chain import BallInCircuit, force_between_balls
+from ballscrew.physics.laws.conditions import Motion
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.frame import Frame
 from ballscrew.physics.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
 
 
@@ -123,7 +123,7 @@ def four_contact_friction(
             frame.path_radius,
         )
     )
-    found = FourContactFriction(
+    result = FourContactFriction(
         flanks=(pairs[0], pairs[1]),
         screw_speed=omega,
         contributions=slip.contributions,
@@ -136,11 +136,11 @@ def four_contact_friction(
     )
     lifted = (flanks[0][0] == 0) | (flanks[1][0] == 0)
     if isinstance(lifted, bool | np.bool_ | np.ndarray) and not np.any(lifted):
-        return found
+        return result
     angle = where(flanks[0][0] > 0, flanks[0][1], flanks[1][1])
     angle = where(both > 0, angle, screw.contact_angle)
     two = two_contact_friction(model, screw, lubricant, both, angle, omega, imposed_ball_force)
-    return _on_two_where(lifted, found, two)
+    return _on_two_where(lifted, result, two)
 
 
 def _in_circuit(

@@ -1,7 +1,7 @@
 """Names of laws, as case files and tables have them.
 
 A row here gives a law a name and no more. Whether the uncertainty band counts it as an alternative is declared beside
-the law (:mod:`ballscrew.physics.components.traits`).
+the law (:mod:`ballscrew.physics.laws.traits`).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 
 from ballscrew.basis.errors import Fault, nearest
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.physics.components import chain_force, film_laws, frame, laws, mixed_friction, rolling_laws
+from ballscrew.physics.laws import ball_chain, film, frame, friction, hertz, inlet, rolling, torque
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.pure_rolling import curvature_slip
@@ -20,51 +20,51 @@ from ballscrew.physics.solvers.pure_rolling import curvature_slip
 #: The laws of each slot by name: functions, and classes where a law has coefficients.
 LAWS: Mapping[str, Mapping[str, Any]] = {
     "frame": {"bearing": frame.bearing_frame, "helix": frame.helix_frame},
-    "hertz": {"houpert": laws.houpert_hertz, "exact": laws.exact_hertz, "brewe-hamrock": laws.brewe_hamrock_hertz},
+    "hertz": {"houpert": hertz.houpert_hertz, "exact": hertz.exact_hertz, "brewe-hamrock": hertz.brewe_hamrock_hertz},
     "film": {
-        "hamrock-dowson": film_laws.HamrockDowson,
-        "hamrock-dowson-central": film_laws.hamrock_dowson_central,
-        "chittenden": film_laws.chittenden,
+        "hamrock-dowson": film.HamrockDowson,
+        "hamrock-dowson-central": film.hamrock_dowson_central,
+        "chittenden": film.chittenden,
     },
     "film_parameter": {
-        "root-sum-square": film_laws.root_sum_square_film_parameter,
-        "literal": film_laws.literal_film_parameter,
+        "root-sum-square": film.root_sum_square_film_parameter,
+        "literal": film.literal_film_parameter,
     },
-    "inlet": {"ideal": film_laws.ideal_inlet, "heated": film_laws.Inlet, "flooded": film_laws.flooded_inlet},
+    "inlet": {"ideal": inlet.ideal_inlet, "heated": inlet.Inlet, "flooded": inlet.flooded_inlet},
     "friction": {
-        "zhou-hoeprich": mixed_friction.ZhouHoeprich,
-        "load-sharing": mixed_friction.LoadSharing,
-        "run-in": mixed_friction.RunInSharing,
-        "balan": mixed_friction.BalanSharing,
-        "greenwood-tripp": mixed_friction.GreenwoodTrippSharing,
+        "zhou-hoeprich": friction.ZhouHoeprich,
+        "load-sharing": friction.LoadSharing,
+        "run-in": friction.RunInSharing,
+        "balan": friction.BalanSharing,
+        "greenwood-tripp": friction.GreenwoodTrippSharing,
     },
     "full_film": {
         "none": None,
-        "arana": mixed_friction.arana_traction,
-        "eyring": mixed_friction.EyringTraction,
-        "limiting-shear": mixed_friction.LimitingShearTraction,
+        "arana": friction.arana_traction,
+        "eyring": friction.EyringTraction,
+        "limiting-shear": friction.LimitingShearTraction,
     },
     "rolling": {
-        "olaru": rolling_laws.olaru_rolling,
-        "biboulet-houpert": rolling_laws.biboulet_houpert_rolling,
-        "houpert": rolling_laws.houpert_rolling,
-        "aihara": rolling_laws.aihara_rolling,
+        "olaru": rolling.olaru_rolling,
+        "biboulet-houpert": rolling.biboulet_houpert_rolling,
+        "houpert": rolling.houpert_rolling,
+        "aihara": rolling.aihara_rolling,
     },
-    "elastic_resistance": {"snare": laws.snare_resistance, "hysteresis": laws.Hysteresis},
+    "elastic_resistance": {"snare": rolling.snare_resistance, "hysteresis": rolling.Hysteresis},
     "slip": {"curvature": curvature_slip, "line": line_slip, "ellipse": ellipse_slip},
     "ball_chain": {
-        "one-neighbour": laws.one_neighbour,
-        "two-neighbours": laws.two_neighbours,
-        "opposed-neighbours": laws.opposed_neighbours,
-        "parted-neighbours": laws.parted_neighbours,
+        "one-neighbour": ball_chain.one_neighbour,
+        "two-neighbours": ball_chain.two_neighbours,
+        "opposed-neighbours": ball_chain.opposed_neighbours,
+        "parted-neighbours": ball_chain.parted_neighbours,
     },
     "ball_force": {
-        "imposed": laws.imposed_ball_force,
-        "proportional": laws.ProportionalBallForce,
-        "chain": chain_force.ChainBallForce,
+        "imposed": ball_chain.imposed_ball_force,
+        "proportional": ball_chain.ProportionalBallForce,
+        "chain": ball_chain.ChainBallForce,
     },
-    "race_torques": {"printed": laws.printed_race_torques, "balanced": laws.balanced_race_torques},
-    "ideal_torque": {"printed": laws.printed_ideal_torque, "virtual-work": laws.virtual_work_torque},
+    "race_torques": {"printed": torque.printed_race_torques, "balanced": torque.balanced_race_torques},
+    "ideal_torque": {"printed": torque.printed_ideal_torque, "virtual-work": torque.virtual_work_torque},
 }
 
 

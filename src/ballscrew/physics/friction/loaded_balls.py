@@ -17,7 +17,6 @@ import numpy as np
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.errors import Fault, InputError, is_concrete
 from ballscrew.basis.quantities import Angle, Count, Force, Mask, Pressure, Ratio
-from ballscrew.physics.components.contact import Contact
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState, settled
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
@@ -35,6 +34,7 @@ from ballscrew.physics.friction.four_contact_balls import (
     two_contact_friction,
 )
 from ballscrew.physics.friction.validity import contact_masks, no_skid, slip_masks
+from ballscrew.physics.laws.contact import Contact
 from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads, ball_loads
 
 #: A load at which the friction of lifted balls is computed, N, to have a derivative; its value is not used.
@@ -73,17 +73,17 @@ class LoadedBalls:
 
     def sum_of(self, read: Callable[[Any], Any]) -> Any:
         """The sum over the balls of a torque or a power that is read off their friction."""
-        found = read(self.friction)
-        return self.total(found if self.idle is None else where(self.load == 0, read(self.idle), found))
+        result = read(self.friction)
+        return self.total(result if self.idle is None else where(self.load == 0, read(self.idle), result))
 
     @property
     def pairs(self) -> tuple[LoadedPair, ...]:
         """The flank pairs that the balls touch, the one that carries the load first."""
-        found = self.friction
-        if isinstance(found, FourContactFriction):
-            return tuple(LoadedPair(*pair) for pair in found.flanks)
-        load = found.contact_load if self.given_load is None else self.given_load
-        return (LoadedPair(load, self.contact_angle, found.screw, found.nut),)
+        friction = self.friction
+        if isinstance(friction, FourContactFriction):
+            return tuple(LoadedPair(*pair) for pair in friction.flanks)
+        load = friction.contact_load if self.given_load is None else self.given_load
+        return (LoadedPair(load, self.contact_angle, friction.screw, friction.nut),)
 
     def largest(self, values: Any) -> Any:
         """The greatest of what each ball has."""
@@ -101,23 +101,23 @@ class LoadedBalls:
     @property
     def contact_conditions(self) -> Mapping[str, Sequence[tuple[Mask, Force]]]:
         """The conditions of the model by reason: whether each holds at each ball, and the load it concerns."""
-        found: dict[str, list[tuple[Mask, Force]]] = {}
+        result: dict[str, list[tuple[Mask, Force]]] = {}
         load, friction = self.load, self.friction
         for pair in self.pairs:
             for contact in (pair.screw, pair.nut):
                 for reason, mask in contact_masks(contact).items():
-                    found.setdefault(reason, []).append((mask, pair.load))
+                    result.setdefault(reason, []).append((mask, pair.load))
         if isinstance(friction, FourContactFriction):
-            found["skid"] = [(~friction.skids, load)]
+            result["skid"] = [(~friction.skids, load)]
         else:
-            found["skid"] = [(no_skid(friction.screw) & no_skid(friction.nut) & (friction.rolling_share == 1), load)]
+            result["skid"] = [(no_skid(friction.screw) & no_skid(friction.nut) & (friction.rolling_share == 1), load)]
             if friction.slip_is_curvature_alone:  # (15) has no part in the slip of four contacts, or over an ellipse
-                found["pure_rolling_offset"] = [
+                result["pure_rolling_offset"] = [
                     (slip_masks(friction.screw)["pure_rolling_offset"], load),
                     (slip_masks(friction.nut)["pure_rolling_offset"], load),
                 ]
-        found["equilibrium"] = [(friction.converged, load)]
-        return found
+        result["equilibrium"] = [(friction.converged, load)]
+        return result
 
 
 class _OfABall:
@@ -190,7 +190,7 @@ def balls_under(
         model, part, lubricant = (_with_ball_axis(each) for each in (model, alone, lubricant))
         omega, imposed, reversed_load = (_last_axis(each) for each in (omega, imposed, reversed_load))
     if four:
-        found = [_on_four_contacts(model, part, lubricant, omega, imposed, kind, reversed_load) for kind in kinds]
+        values = [_on_four_contacts(model, part, lubricant, omega, imposed, kind, reversed_load) for kind in kinds]
     else:
         touched = [_touched(kind, part.contact_angle) for kind in kinds]
         if len(touched) == 2:
@@ -201,7 +201,7 @@ def balls_under(
         return _on_two_contacts(model, part, lubricant, omega, imposed, loads, touched)
     return tuple(
         LoadedBalls(balls=kind.balls, one_by_one=loads.one_by_one, contact_angle=angle, friction=friction)
-        for kind, (angle, friction) in zip(kinds, found, strict=True)
+        for kind, (angle, friction) in zip(kinds, values, strict=True)
     )
 
 
@@ -215,14 +215,14 @@ def _on_two_contacts(
     touched: Sequence[tuple[Force, Angle]],
 ) -> tuple[LoadedBalls, ...]:
     """Kinds of balls with these loads and angles; a second kind may be lifted off."""
-    found: list[LoadedBalls] = []
+    loaded_balls: list[LoadedBalls] = []
     for place, (load, angle) in enumerate(touched):
         idle, computed = None, load
         if place == 1:
             idle = idle_ball_friction(model, screw, model.laws.frame(screw), speed, imposed_ball_force)
             computed = where(load == 0, ANY_LOAD, load)
         friction = two_contact_friction(model, screw, lubricant, computed, angle, speed, imposed_ball_force)
-        found.append(
+        loaded_balls.append(
             LoadedBalls(
                 balls=loads.kinds[place].balls,
                 one_by_one=loads.one_by_one,
@@ -232,7 +232,7 @@ def _on_two_contacts(
                 idle=idle,
             )
         )
-    return tuple(found)
+    return tuple(loaded_balls)
 
 
 def _touched(kind: KindLoads, nominal_angle: Angle) -> tuple[Force, Angle]:
@@ -265,7 +265,7 @@ def holds_for_most(kinds: Sequence[LoadedBalls]) -> Mapping[str, Mask]:
 
     A half that is about to lift off, or balls that hardly touch, say nothing about the torque.
     """
-    found: dict[str, Mask] = {}
+    masks: dict[str, Mask] = {}
     conditions = [(kind, kind.contact_conditions) for kind in kinds]
     for reason in conditions[0][1]:
         failing, load = 0.0, 0.0
@@ -274,8 +274,8 @@ def holds_for_most(kinds: Sequence[LoadedBalls]) -> Mapping[str, Mask]:
                 each = carried + 0 * kind.load
                 failing = failing + kind.total(where(holds, 0.0, each))
                 load = load + kind.total(each)
-        found[reason] = failing <= NEGLIGIBLE_SHARE * load
-    return found
+        masks[reason] = failing <= NEGLIGIBLE_SHARE * load
+    return masks
 
 
 def largest_contact_load(kinds: Sequence[LoadedBalls]) -> Force:
@@ -291,12 +291,12 @@ def maximum_pressure(kinds: Sequence[LoadedBalls]) -> Pressure:
 
 def minimum_film_parameter(kinds: Sequence[LoadedBalls]) -> Ratio:
     """Least film parameter of all contacts that carry load."""
-    found: list[Any] = []
+    values: list[Any] = []
     for kind in kinds:
         for pair in kind.pairs:
             for contact in (pair.screw, pair.nut):
-                found.append(-kind.largest(where(pair.load == 0, -float("inf"), -contact.film_parameter)))
-    return -_extreme([-each for each in found])
+                values.append(-kind.largest(where(pair.load == 0, -float("inf"), -contact.film_parameter)))
+    return -_extreme([-each for each in values])
 
 
 def _extreme(values: Sequence[Any]) -> Any:

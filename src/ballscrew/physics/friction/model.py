@@ -14,12 +14,34 @@ from ballscrew.basis.arrays import ByValue, as_array, lazy, same
 from ballscrew.basis.errors import Fault, accepts_units, faults_of, names_keywords, raise_if_any
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, fields_of
-from ballscrew.physics.components.chain_force import CircuitForceLaw
-from ballscrew.physics.components.contact import ContactLaws
-from ballscrew.physics.components.film_laws import HamrockDowson, Inlet, ideal_inlet, root_sum_square_film_parameter
-from ballscrew.physics.components.film_laws import literal_film_parameter as printed_film_parameter
-from ballscrew.physics.components.frame import bearing_frame, helix_frame
-from ballscrew.physics.components.laws import (
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.operating_state import USE_SWEEP, OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations.transmission import contact_load as equal_contact_load
+from ballscrew.physics.friction.across_groove import in_motion
+from ballscrew.physics.friction.law_names import fault_of_law
+from ballscrew.physics.friction.loaded_balls import balls_under, loads_of, row_of_balls
+from ballscrew.physics.friction.plausibility import named_parts
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.ball_chain import (
+    CircuitForceLaw,
+    ProportionalBallForce,
+    imposed_ball_force,
+    one_neighbour,
+    opposed_neighbours,
+    parted_neighbours,
+    two_neighbours,
+)
+from ballscrew.physics.laws.contact import ContactLaws
+from ballscrew.physics.laws.film import HamrockDowson, root_sum_square_film_parameter
+from ballscrew.physics.laws.film import literal_film_parameter as printed_film_parameter
+from ballscrew.physics.laws.frame import bearing_frame, helix_frame
+from ballscrew.physics.laws.friction import RunInSharing, ZhouHoeprich
+from ballscrew.physics.laws.hertz import exact_hertz, houpert_hertz
+from ballscrew.physics.laws.inlet import Inlet, ideal_inlet
+from ballscrew.physics.laws.outside import usable
+from ballscrew.physics.laws.protocols import (
     BallChainLaw,
     BallForceLaw,
     ContactLoadLaw,
@@ -32,36 +54,17 @@ from ballscrew.physics.components.laws import (
     HertzLaw,
     IdealTorqueLaw,
     InletLaw,
-    ProportionalBallForce,
     RaceTorqueLaw,
     RollingLaw,
+)
+from ballscrew.physics.laws.rolling import biboulet_houpert_rolling, olaru_rolling, snare_resistance
+from ballscrew.physics.laws.torque import (
     balanced_race_torques,
-    exact_hertz,
-    houpert_hertz,
-    imposed_ball_force,
-    one_neighbour,
-    opposed_neighbours,
-    parted_neighbours,
     printed_ideal_torque,
     printed_race_torques,
-    snare_resistance,
-    two_neighbours,
     virtual_work_torque,
 )
-from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import RunInSharing, ZhouHoeprich
-from ballscrew.physics.components.nut import Nut
-from ballscrew.physics.components.operating_state import USE_SWEEP, OperatingState
-from ballscrew.physics.components.outside_laws import usable
-from ballscrew.physics.components.rolling_laws import biboulet_houpert_rolling, olaru_rolling
-from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
-from ballscrew.physics.equations.transmission import contact_load as equal_contact_load
-from ballscrew.physics.friction.across_groove import in_motion
-from ballscrew.physics.friction.law_names import fault_of_law
-from ballscrew.physics.friction.loaded_balls import balls_under, loads_of, row_of_balls
-from ballscrew.physics.friction.plausibility import named_parts
-from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.physics.solvers.pure_rolling import curvature_slip

@@ -9,10 +9,10 @@ from collections.abc import Mapping
 from ballscrew.basis.quantities import AngularSpeed, Force
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Bodies, Deviations, Nut, SingleNut
-from ballscrew.physics.components.nut_losses import ParasiticLaw
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.nut_losses import ParasiticLaw
 
 
 def nut_friction(

@@ -57,13 +57,13 @@ def implausible(parts: Mapping[str, Any]) -> list[Record]:
     lubricant, screw = parts.get("lubricant"), parts.get("screw")
     sheet = getattr(lubricant, "sheet", None)
     odd = odd_preload(screw) if isinstance(screw, BallScrew) else []
-    found = [
+    values = [
         record
         for section, part in [*parts.items(), *([] if sheet is None else [("lubricant", sheet)])]
         for record in unusual(section, part)
         if record.subject not in {one.subject for one in odd}
     ]
-    return [*found, *odd, *beyond_data_sheet(lubricant), *_grease_as_oil(lubricant, parts.get("model.inlet"))]
+    return [*values, *odd, *beyond_data_sheet(lubricant), *_grease_as_oil(lubricant, parts.get("model.inlet"))]
 
 
 def beyond_data_sheet(lubricant: Any) -> list[Record]:

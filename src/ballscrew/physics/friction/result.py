@@ -23,9 +23,6 @@ from ballscrew.basis.quantities import (
     quantities_of,
 )
 from ballscrew.basis.records import Record
-from ballscrew.physics.components.contact import RaceState
-from ballscrew.physics.components.frame import Frame
-from ballscrew.physics.components.laws import BallChain, IdealTorqueLaw
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import transmission
 from ballscrew.physics.friction import directions, loaded_balls, starvation
@@ -40,6 +37,9 @@ from ballscrew.physics.friction.validity import (
     warning_records,
 )
 from ballscrew.physics.friction.vendor_terms import VendorTerms
+from ballscrew.physics.laws.contact import RaceState
+from ballscrew.physics.laws.frame import Frame
+from ballscrew.physics.laws.protocols import BallChain, IdealTorqueLaw
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: The four quadrants: directions of the load on the nut and of the rotation.
@@ -397,13 +397,13 @@ class FrictionResult(VendorTerms, Drawn):
                 ball.slip_is_curvature_alone,
                 self.drive_torque,
             )
-        found = dict(loaded_balls.holds_for_most(self.kinds))
+        result = dict(loaded_balls.holds_for_most(self.kinds))
         # without any load nothing is rolled along, as with one ball
-        found["skid"] = found["skid"] & (self.largest_contact_load > 0)
-        found["inputs"] = input_mask(self.parts.values(), self.drive_torque)
-        found["load_distribution"] = self.solved_loads.converged
-        everywhere = found["inputs"] | True
-        return {reason: found.get(reason, True) & everywhere for reason in NUT_CONDITIONS}
+        result["skid"] = result["skid"] & (self.largest_contact_load > 0)
+        result["inputs"] = input_mask(self.parts.values(), self.drive_torque)
+        result["load_distribution"] = self.solved_loads.converged
+        everywhere = result["inputs"] | True
+        return {reason: result.get(reason, True) & everywhere for reason in NUT_CONDITIONS}
 
     @lazy
     def valid(self) -> Annotated[Mask, Info("valid", "all conditions of the model hold")]:
@@ -426,9 +426,9 @@ class FrictionResult(VendorTerms, Drawn):
         """The torque where it is starved the most, beside that of a full bath; empty where they hardly differ."""
         if not self.may_starve:
             return []
-        found = starvation.most_starved(self.screw_torque, self.flooded_torque)
+        result = starvation.most_starved(self.screw_torque, self.flooded_torque)
         quantity = quantities_of(FrictionResult)["screw_torque"]
-        return [] if found is None else starvation.records([starvation.BothTorques(quantity, *found)])
+        return [] if result is None else starvation.records([starvation.BothTorques(quantity, *result)])
 
     @property
     def warning_records(self) -> list[Record]:

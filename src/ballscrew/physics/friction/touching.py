@@ -38,26 +38,26 @@ def most_loaded_ball(loads: BallLoads) -> MostLoadedBall:
     """The ball with the largest load on a pair of flanks, the first of several."""
     names = MostLoadedBall._fields
     first, *others = loads.kinds
-    found = MostLoadedBall(*(getattr(first, name) for name in names))
+    result = MostLoadedBall(*(getattr(first, name) for name in names))
     if loads.one_by_one:
-        place = np.argmax(_larger(found), axis=-1)
-        return MostLoadedBall(*(_at(part, place) for part in found))
+        place = np.argmax(_larger(result), axis=-1)
+        return MostLoadedBall(*(_at(part, place) for part in result))
     for kind in others:
         other = MostLoadedBall(*(getattr(kind, name) for name in names))
-        is_larger = _larger(other) > (1 + ALIKE) * _larger(found)
-        found = MostLoadedBall(*(where(is_larger, b, a) for a, b in zip(found, other, strict=True)))
-    return found
+        is_larger = _larger(other) > (1 + ALIKE) * _larger(result)
+        result = MostLoadedBall(*(where(is_larger, b, a) for a, b in zip(result, other, strict=True)))
+    return result
 
 
 def touched(ball: MostLoadedBall, axial_load: Force, nominal_angle: Angle) -> tuple[FlankPair, FlankPair]:
     """The flanks that carry the load, and the other ones; where a ball touches none, the first as it would touch it."""
     sides = (ball.forward_load, ball.forward_angle), (ball.backward_load, ball.backward_angle)
     carries = axial_load >= 0
-    found = [
+    values = [
         tuple(where(carries, one, other) for one, other in zip(here, there, strict=True))
         for here, there in (sides, sides[::-1])
     ]
-    (load, angle), (other_load, other_angle) = found
+    (load, angle), (other_load, other_angle) = values
     xp = namespace(load, angle, other_load, other_angle)
     touches, other_touches = (load > 0) & xp.isfinite(angle), (other_load > 0) & xp.isfinite(other_angle)
     idle = xp.logical_not(touches | other_touches)

@@ -13,8 +13,8 @@ from ballscrew.basis.errors import is_concrete
 from ballscrew.basis.judgements import Judgement, Sentence, Shown
 from ballscrew.basis.quantities import Mask, Ratio, Torque, fields_of, within_bounds
 from ballscrew.basis.records import Record
-from ballscrew.physics.components.contact import Contact, RaceState
 from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.laws.contact import Contact, RaceState
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
 LARGEST_PURE_ROLLING_OFFSET = 0.643
@@ -172,8 +172,8 @@ def imbalance_records(power_imbalance: Ratio, nut_torque: Torque) -> list[Record
     shares, torques = (np.asarray(values, dtype=float) for values in (power_imbalance, nut_torque))
     largest = np.max(np.abs(shares), initial=0.0, where=np.isfinite(shares))
     least = np.min(torques, initial=0.0, where=torques < 0)
-    found = IMBALANCE.finds({"power_imbalance": largest, "nut_torque": least})
-    record = None if found is None else IMBALANCE.record(found, {})
+    result = IMBALANCE.finds({"power_imbalance": largest, "nut_torque": least})
+    record = None if result is None else IMBALANCE.record(result, {})
     return [] if record is None else [record]
 
 
@@ -191,10 +191,10 @@ def warning_records(
 def _record(reason: str, condition: Condition, contacts: Sequence[Contact]) -> Record:
     """The warning of a condition that fails at one of several points, with its worst value."""
     row = _judgement(reason, condition)
-    found = dict(row.finds({f"validity_{reason}": False}) or {})
+    result = dict(row.finds({f"validity_{reason}": False}) or {})
     if condition.quantity:
-        found["value"] = _worst(condition, contacts)
-    record = row.record(found, {})
+        result["value"] = _worst(condition, contacts)
+    record = row.record(result, {})
     assert record is not None, "a condition that fails is said"
     return record
 

@@ -96,38 +96,38 @@ def _held(of: Mapping[str, Any], place: str = "") -> tuple[Any, Mask, Mapping[st
     """What is to be said of a load that is held: whether there is one, whether it drives, and its numbers."""
     torque, valid = of[f"{place}holding_torque"], of[f"{place}valid"]
     xp = namespace(torque, valid)
-    found = {"value": torque, "torque": abs(torque), "invalid": xp.logical_not(valid)}
+    values = {"value": torque, "torque": abs(torque), "invalid": xp.logical_not(valid)}
     is_held = (of["axial_load"] != 0) & xp.logical_not(is_nan(torque))
-    return is_held, directions.load_drives(torque, of["axial_load"]), found
+    return is_held, directions.load_drives(torque, of["axial_load"]), values
 
 
 def _back_drives(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    is_held, drives, found = _held(of)
-    return {**found, "said": is_held & (of["screw_speed"] != 0) & drives}
+    is_held, drives, result = _held(of)
+    return {**result, "said": is_held & (of["screw_speed"] != 0) & drives}
 
 
 def _held_in_motion(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    is_held, drives, found = _held(of)
+    is_held, drives, result = _held(of)
     xp = namespace(drives)
     drives_at_rest = directions.load_drives(of["at_rest.holding_torque"], of["axial_load"])
-    return {**found, "said": is_held & (of["screw_speed"] != 0) & xp.logical_not(drives) & drives_at_rest}
+    return {**result, "said": is_held & (of["screw_speed"] != 0) & xp.logical_not(drives) & drives_at_rest}
 
 
 def _locks_itself(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    is_held, drives, found = _held(of)
+    is_held, drives, result = _held(of)
     xp = namespace(drives)
     drives_at_rest = directions.load_drives(of["at_rest.holding_torque"], of["axial_load"])
-    return {**found, "said": is_held & (of["screw_speed"] != 0) & xp.logical_not(drives | drives_at_rest)}
+    return {**result, "said": is_held & (of["screw_speed"] != 0) & xp.logical_not(drives | drives_at_rest)}
 
 
 def _back_drives_at_rest(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    is_held, drives, found = _held(of, "at_rest.")
-    return {**found, "said": is_held & drives}
+    is_held, drives, result = _held(of, "at_rest.")
+    return {**result, "said": is_held & drives}
 
 
 def _locks_itself_at_rest(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    is_held, drives, found = _held(of, "at_rest.")
-    return {**found, "said": is_held & namespace(drives).logical_not(drives)}
+    is_held, drives, result = _held(of, "at_rest.")
+    return {**result, "said": is_held & namespace(drives).logical_not(drives)}
 
 
 def _holding(template: str, **row: Any) -> Judgement:
@@ -151,13 +151,13 @@ def _skids(of: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _skids_in_motion(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    found = _skids(of)
-    return {**found, "said": found["said"] & (of["screw_speed"] != 0)}
+    result = _skids(of)
+    return {**result, "said": result["said"] & (of["screw_speed"] != 0)}
 
 
 def _skids_at_rest(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    found = _skids(of)
-    return {**found, "said": found["said"] & (of["screw_speed"] == 0)}
+    result = _skids(of)
+    return {**result, "said": result["said"] & (of["screw_speed"] == 0)}
 
 
 def _far_from_rule(of: Mapping[str, Any]) -> Mapping[str, Any]:

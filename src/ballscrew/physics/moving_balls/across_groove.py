@@ -62,8 +62,8 @@ def off_line_balls(
     Raises :class:`~ballscrew.basis.errors.InputError` as the model, and for balls on four contacts, which stay on their
     line.
     """
-    found = of_balls_alike(model, screw, lubricant, axial_load=axial_load, screw_speed=screw_speed)
-    four = [kind for kind in found.kinds if not isinstance(kind.friction, BallFriction)]
+    result = of_balls_alike(model, screw, lubricant, axial_load=axial_load, screw_speed=screw_speed)
+    four = [kind for kind in result.kinds if not isinstance(kind.friction, BallFriction)]
     if four:
         remedy = "ask for a nut whose balls have two"
         raise_if_any(
@@ -71,7 +71,7 @@ def off_line_balls(
         )
     lifts = where(axial_load * screw_speed >= 0, 1.0, -1.0)
     return tuple(
-        _of_kind(model, found, lubricant, kind, way) for kind, way in zip(found.kinds, (lifts, -lifts), strict=False)
+        _of_kind(model, result, lubricant, kind, way) for kind, way in zip(result.kinds, (lifts, -lifts), strict=False)
     )
 
 
@@ -88,12 +88,12 @@ def of_balls_alike(
 
 
 def _of_kind(
-    model: FrictionModel, found: FrictionResult, lubricant: Lubricant, kind: LoadedBalls, way: Ratio
+    model: FrictionModel, friction_result: FrictionResult, lubricant: Lubricant, kind: LoadedBalls, way: Ratio
 ) -> OffLineBalls:
     at_line = kind.friction
     assert isinstance(at_line, BallFriction), "four contacts are refused"
-    screw = dataclasses.replace(found.ball_screw, contact_angle=kind.contact_angle)
-    frame, Q, omega = at_line.frame, at_line.contact_load, abs(found.screw_speed)
+    screw = dataclasses.replace(friction_result.ball_screw, contact_angle=kind.contact_angle)
+    frame, Q, omega = at_line.frame, at_line.contact_load, abs(friction_result.screw_speed)
     v = frame.entrainment_speed(1.0)
     rotations = v / at_line.screw.rolling_radius, v / at_line.nut.rolling_radius
     total = kinematics.relative_spin(1.0, frame.rolling_plane_sine)

@@ -29,11 +29,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import presliding, slip
 from ballscrew.physics.friction.across_groove import arms_of
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.frame import Frame
 
 Field = NDArray[np.float64]
 

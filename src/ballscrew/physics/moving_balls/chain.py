@@ -23,14 +23,14 @@ from numpy.typing import NDArray
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length, Power, Ratio
 from ballscrew.compiler.kernels.kernel import available
-from ballscrew.physics.components.chain_force import TURNS_IN_RETURN, WALL_FACTOR
 from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY, Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import ball_chain
 from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.ball_chain import TURNS_IN_RETURN, WALL_FACTOR
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.moving_balls.chain_step import Driven, compiled_pushed_balls, pushed_balls
 from ballscrew.physics.moving_balls.loaded_zone import BallsInZone, LoadedZone, loaded_zone
 
@@ -252,13 +252,13 @@ def _pushed(
             np.where(driven, 0.0, circuit.return_resistance),
         ]
     )[:, order]
-    found = np.empty((3, count))
-    found[:, order] = (
+    values = np.empty((3, count))
+    values[:, order] = (
         compiled_pushed_balls(row, touches[order])
         if by_kernel
         else pushed_balls(Driven(*row.tolist()), touches[order].tolist())
     )
-    speed, force, drive = found
+    speed, force, drive = values
     return speed, force, drive
 
 

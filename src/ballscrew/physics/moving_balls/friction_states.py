@@ -351,11 +351,11 @@ def gms_torque(elements: Sequence[SlipElement], screw_angles: Array, *, initial_
         remedy = "give one for each element, within the torque at which it slides"
         raise_if_any([Fault("gms_torque.initial_torques", "do not fit the elements", f"{initial_torques}", remedy)])
     angles = np.asarray(screw_angles, dtype=float)
-    found = np.empty(angles.shape)
+    values = np.empty(angles.shape)
     for i, turned in enumerate(np.diff(angles, prepend=angles[:1])):
         held = equations.slip_element_torque(k, M_s, held, turned)
-        found[i] = held.sum()
-    return found
+        values[i] = held.sum()
+    return values
 
 
 def work_share(elements: Sequence[SlipElement], stroke: Angle, *, at_once: Torque = 0.0) -> Ratio:
@@ -411,8 +411,8 @@ def _minimum(function: Callable[[float], float], low: float, high: float) -> flo
     grid = np.linspace(low, high, max(3, math.ceil((high - low) / math.log(10) * _PER_DECADE)))
     best = int(np.argmin([function(float(one)) for one in grid]))
     ends = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])
-    found: Any = optimize.minimize_scalar(function, bounds=ends, method="bounded", options={"xatol": 1e-10})
-    return float(found.x)
+    result: Any = optimize.minimize_scalar(function, bounds=ends, method="bounded", options={"xatol": 1e-10})
+    return float(result.x)
 
 
 def of_elements(elements: Sequence[SlipElement], curve: WindingUp) -> Vector:
@@ -468,7 +468,7 @@ class _Shares:
         def squares(logarithms: Vector) -> float:
             return self._squares(np.exp(logarithms))
 
-        found: Any = optimize.minimize(
+        result: Any = optimize.minimize(
             squares,
             start,
             method="Nelder-Mead",
@@ -479,7 +479,7 @@ class _Shares:
                 "initial_simplex": np.vstack([start, start + 0.1 * np.eye(len(start))]),
             },
         )
-        return np.exp(found.x)
+        return np.exp(result.x)
 
     def _squares(self, slides: Vector) -> float:
         return float(_least_squares(self._products(slides))[1])

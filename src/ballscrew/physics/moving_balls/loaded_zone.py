@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Length, LoadDeflection, Ratio, Speed
-from ballscrew.physics.components.laws import imposed_ball_force, one_neighbour
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
@@ -31,6 +30,7 @@ from ballscrew.physics.friction.balls import ball_friction
 from ballscrew.physics.friction.four_contact_balls import four_contact_friction
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.ball_chain import imposed_ball_force, one_neighbour
 from ballscrew.physics.solvers.load_distribution import pair_load_deflection
 
 Field = NDArray[np.float64]
@@ -265,10 +265,10 @@ def _speed_on_two(
     model: FrictionModel, screw: BallScrew, lubricant: Lubricant, load: Field, omega: AngularSpeed, push: Field
 ) -> tuple[Field, Field]:
     """Speed of a ball on two contacts that is pushed back, and the friction of both over the load."""
-    found = ball_friction(model, screw, lubricant, model.laws.frame(screw), load, omega, push)
-    on_screw, on_nut, L = found.screw, found.nut, found.frame.path_radius
+    result = ball_friction(model, screw, lubricant, model.laws.frame(screw), load, omega, push)
+    on_screw, on_nut, L = result.screw, result.nut, result.frame.path_radius
     w = kinematics.ball_surface_speed(
-        found.entrainment_speed,
+        result.entrainment_speed,
         on_screw.creep_speed,
         on_nut.creep_speed,
         on_screw.contact_radius,
@@ -284,9 +284,9 @@ def _speed_on_four(
 ) -> tuple[Field, Field]:
     """The same on four contacts: the torque that a push asks for is the push at the speed of the ball."""
     each = (load / 2, screw.contact_angle)
-    found = four_contact_friction(model, screw, lubricant, (each, each), omega, push)
-    speed = omega * found.contributions["chain_braking"] / (push * found.rolling_share)
-    return speed, found.screw.friction_coefficient + found.nut.friction_coefficient
+    result = four_contact_friction(model, screw, lubricant, (each, each), omega, push)
+    speed = omega * result.contributions["chain_braking"] / (push * result.rolling_share)
+    return speed, result.screw.friction_coefficient + result.nut.friction_coefficient
 
 
 def loaded_zone(

@@ -23,12 +23,12 @@ from ballscrew.basis.quantities import Angle, AngularSpeed, Array, Force, Info, 
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import kinematics
 from ballscrew.physics.friction.balls import BallFriction
 from ballscrew.physics.friction.loaded_balls import LoadedBalls
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.moving_balls.across_groove import of_balls_alike
 from ballscrew.physics.moving_balls.brush import CELLS, BallContacts, Brush, Step
 from ballscrew.physics.solvers.load_distribution import preload_of
@@ -218,14 +218,14 @@ def loops(
     operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
     start = _start(model, screw, lubricant, operation, None, gap)
     parts, steady = after.steady_contributions, float(after.steady_torque)
-    found: list[Loop] = []
+    result: list[Loop] = []
     for stroke in strokes:
         slip = sum(ball.number * _work(ball, stroke) for ball in start.balls) / (2 * stroke)
         scaled = slip / after.bristles_over_model if slip else 0.0
         closed = stroke / start.closing if start.closing > 0 else math.inf
         pressed = parts["ball_to_ball"] * (closed / 2 if closed < 1 else 1 - 0.5 / closed)
-        found.append(Loop(stroke, (parts["rolling"] + parts[LOSSES] + scaled + pressed) / steady))
-    return tuple(found)
+        result.append(Loop(stroke, (parts["rolling"] + parts[LOSSES] + scaled + pressed) / steady))
+    return tuple(result)
 
 
 def _work(ball: _Ball, stroke: Angle) -> float:
@@ -286,18 +286,18 @@ def _start(
     return _Start(steady, balls, advance, closing, whole, end)
 
 
-def _balls(found: FrictionResult, *, lifts: bool) -> list[_Ball]:
+def _balls(friction_result: FrictionResult, *, lifts: bool) -> list[_Ball]:
     """The balls that carry load, each flank pair by itself; those of a braced half are pushed the other way."""
     balls: list[_Ball] = []
-    for place, kind in enumerate(found.kinds):
+    for place, kind in enumerate(friction_result.kinds):
         held = sum(float(pair.load) > 0 for pair in kind.pairs) > 1
         for pair in kind.pairs:
             if float(pair.load) <= 0:
                 continue
-            frame = found.frame
+            frame = friction_result.frame
             if isinstance(kind.friction, BallFriction):
                 frame = kind.friction.frame
-            contacts = BallContacts.of(found.ball_screw, frame, pair.screw, pair.nut, held=held)
+            contacts = BallContacts.of(friction_result.ball_screw, frame, pair.screw, pair.nut, held=held)
             balls.append(_Ball(contacts, float(kind.balls), _crossing(contacts, kind), lifts == (place == 0)))
     return balls
 
@@ -373,25 +373,25 @@ def _faults(
 ) -> list[Fault]:
     numbers = {**{f"operation.{n}": v for n, v in operation.items()}, "reversal.travel": travel, "reversal.gap": gap}
     remedy = "follow one reversal at a time"
-    found = [
+    faults = [
         Fault(name, "must be one number", "an array", remedy)
         for name, value in numbers.items()
         if value is not None and np.ndim(value)
     ]
-    if found:
-        return found
+    if faults:
+        return faults
     if operation["screw_speed"] == 0:
         remedy = "give the speed after the reversal, a slow one"
-        found.append(Fault("operation.screw_speed", "must not be zero", "", remedy))
+        faults.append(Fault("operation.screw_speed", "must not be zero", "", remedy))
     braced = screw.nut.halves == 2 or isinstance(screw.nut, OversizeBallNut)
     if operation["axial_load"] == 0 and not (braced and preload_of(screw, screw.nut)):
         remedy = "give the load under which the screw turns round"
-        found.append(Fault("operation.axial_load", "leaves the balls without load", "", remedy))
+        faults.append(Fault("operation.axial_load", "leaves the balls without load", "", remedy))
     if travel is not None and not 0 < travel < math.inf:
-        found.append(Fault("reversal.travel", "must be above zero", str(travel), "give how far to follow: 1 mm"))
+        faults.append(Fault("reversal.travel", "must be above zero", str(travel), "give how far to follow: 1 mm"))
     if not 0 <= gap < math.inf:
         remedy = "give the gap of a circuit in balls: 0.5"
-        found.append(Fault("reversal.gap", "must not be negative", str(gap), remedy))
+        faults.append(Fault("reversal.gap", "must not be negative", str(gap), remedy))
     if not traits_of(model.slip).lateral_slip or traits_of(model.slip).curvature_alone:
-        found.append(Fault("model.slip", "knows no slip across the path", "", "take the model reference"))
-    return found
+        faults.append(Fault("model.slip", "knows no slip across the path", "", "take the model reference"))
+    return faults

@@ -211,7 +211,7 @@ def torque_ripple(
         gap = FULL
     state = OperatingState(axial_load, screw_speed, None)
     screw, whole = (in_motion(model, each, lubricant, state) for each in (screw, whole))
-    found: list[_Circuit] = []
+    result: list[_Circuit] = []
     for half, (carrier, load) in enumerate(_halves(whole, axial_load)):
         for number in range(int(circuits)):
             zone = loaded_zone(
@@ -232,9 +232,9 @@ def torque_ripple(
             balls = circuit.balls  # what the orders are named by, with a missing ball as without
             if at_defect and isinstance(defect, MissingBall):
                 circuit = circuit._replace(balls=balls - 1)
-            found.append(_of_circuit(model, carrier, lubricant, circuit, balls, screw_speed, step, turns))
+            result.append(_of_circuit(model, carrier, lubricant, circuit, balls, screw_speed, step, turns))
     generator = np.random.default_rng((int(seed), 2))
-    return _added(found, whole, axial_load, int(circuits), generator)
+    return _added(result, whole, axial_load, int(circuits), generator)
 
 
 def _halves(screw: BallScrew, axial_load: Force) -> list[tuple[BallScrew, Force]]:
@@ -369,13 +369,13 @@ def ball_torques(
         torques: list[Any] = []
         for preload in axial:
             nut: Any = OversizeBallNut(preload=float(preload))
-            found = parted(dataclasses.replace(screw, nut=nut), lubricant, axial_load=0.0, screw_speed=omega)
-            torques.append(found.screw_torque)
+            result = parted(dataclasses.replace(screw, nut=nut), lubricant, axial_load=0.0, screw_speed=omega)
+            torques.append(result.screw_torque)
         loads, torque = 2 * LOADS, np.asarray(torques, dtype=float)
     else:
         alike = dataclasses.replace(screw, nut=SINGLE_NUT, contact_angle=math.asin(sine))
-        found = parted(alike, lubricant, axial_load=axial, screw_speed=omega)
-        loads, torque = LOADS, np.asarray(found.screw_torque, dtype=float)
+        result = parted(alike, lubricant, axial_load=axial, screw_speed=omega)
+        loads, torque = LOADS, np.asarray(result.screw_torque, dtype=float)
     return zone.nominal_load * loads, np.concatenate([[0.0], torque / float(screw.loaded_balls)])
 
 
@@ -396,29 +396,29 @@ def _axial_force(chain: MovingChain) -> Field:
 
 
 def _added(
-    found: Sequence[_Circuit], screw: BallScrew, axial_load: Force, circuits: int, generator: np.random.Generator
+    result: Sequence[_Circuit], screw: BallScrew, axial_load: Force, circuits: int, generator: np.random.Generator
 ) -> Ripple:
     """The circuits together, over a common angle, each from a place of its own within a turn."""
-    first = found[0].chain
-    step = min(float(one.chain.angle[1] - one.chain.angle[0]) for one in found)
-    starts = [0.0, *generator.uniform(0.0, 2 * math.pi, len(found) - 1)]
-    length = min(float(np.ptp(one.chain.angle)) for one in found) - 2 * math.pi
+    first = result[0].chain
+    step = min(float(one.chain.angle[1] - one.chain.angle[0]) for one in result)
+    starts = [0.0, *generator.uniform(0.0, 2 * math.pi, len(result) - 1)]
+    length = min(float(np.ptp(one.chain.angle)) for one in result) - 2 * math.pi
     angle = step * np.arange(math.floor(length / step), dtype=np.float64)
 
     def over(one: _Circuit, start: float, values: Field) -> Field:
         return np.interp(angle + start, one.chain.angle - one.chain.angle[0], values)
 
     def together(fields: Sequence[Field], places: Sequence[int]) -> Field:
-        return np.sum([over(found[i], starts[i], fields[i]) for i in places], axis=0)
+        return np.sum([over(result[i], starts[i], fields[i]) for i in places], axis=0)
 
-    every = range(len(found))
-    torques = {name: together([one.torques[name] for one in found], every) for name in found[0].torques}
+    every = range(len(result))
+    torques = {name: together([one.torques[name] for one in result], every) for name in result[0].torques}
     torque = np.sum(list(torques.values()), axis=0)
-    orders = kinematic_orders(first.zone, found[0].balls, first.circuit_length)
+    orders = kinematic_orders(first.zone, result[0].balls, first.circuit_length)
     amplitudes = amplitudes_at(angle, torque, list(orders.values()))
     displacement = math.nan
-    if screw.nut.halves == 2 and len(found) == 2 * circuits:
-        pulls = [one.axial_force for one in found]
+    if screw.nut.halves == 2 and len(result) == 2 * circuits:
+        pulls = [one.axial_force for one in result]
         net = together(pulls, every[:circuits]) - together(pulls, every[circuits:])
         displacement = float(np.ptp(net)) / float(loads_of(screw, axial_load).rigidity)
     return Ripple(
@@ -428,7 +428,7 @@ def _added(
         orders=[NamedOrder(name, order, float(a)) for (name, order), a in zip(orders.items(), amplitudes, strict=True)],
         spectrum=spectrum_of(angle, torque),
         displacement=displacement,
-        share=float(np.mean([one.chain.share for one in found])),
+        share=float(np.mean([one.chain.share for one in result])),
     )
 
 

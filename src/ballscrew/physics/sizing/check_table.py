@@ -86,18 +86,18 @@ def _lives(of: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _life(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    found = _lives(of)
-    turns = found.pop("turns")
+    lives = _lives(of)
+    turns = lives.pop("turns")
     required = of[RUNNING_TIME] / life.running_time(1.0, abs(of["screw_speed"]))
-    del found["time"], found["lasts"]
-    return {**at_least(turns, required), **found, "million_turns": turns / 1e6}
+    del lives["time"], lives["lasts"]
+    return {**at_least(turns, required), **lives, "million_turns": turns / 1e6}
 
 
 def _running_time(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    found = _lives(of)
-    time = found.pop("time")
-    del found["turns"]
-    return {**at_least(time, of[RUNNING_TIME]), **found, "hours": time / HOUR}
+    lives = _lives(of)
+    time = lives.pop("time")
+    del lives["turns"]
+    return {**at_least(time, of[RUNNING_TIME]), **lives, "hours": time / HOUR}
 
 
 def _contact_pressure(of: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -264,20 +264,20 @@ def _all_checks(of: Mapping[str, Any]) -> Mapping[str, Any]:
     }
 
 
-def counted(found: Mapping[str, Mapping[str, Any]], given: Mapping[str, Mask] | None = None) -> dict[str, Any]:
+def counted(result: Mapping[str, Mapping[str, Any]], given: Mapping[str, Mask] | None = None) -> dict[str, Any]:
     """How many checks there are, were judged and fail, by what their rows give; nothing where none is judged.
 
     ``given`` has a mask for each id: what the check needs is given. Without it, what the rows need is.
     """
     judged: Any = 0.0
     failing: Any = 0.0
-    for name, row in found.items():
+    for name, row in result.items():
         is_judged = row.get("judged", np.bool_(True))
         is_judged = is_judged if given is None else given[name] & is_judged
         judged = judged + where(is_judged, 1.0, 0.0)
         failing = failing + where(is_judged & namespace(row["holds"]).logical_not(row["holds"]), 1.0, 0.0)
     numbers = {"checks.judged": judged, "checks.failing": failing, "checks.all": float(len(CHECKS))}
-    return numbers if found else {}
+    return numbers if result else {}
 
 
 _COUNT = {"judged": Shown("number_judged"), "all": Shown("number")}

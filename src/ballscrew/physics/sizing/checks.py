@@ -101,23 +101,23 @@ class Check(NamedTuple):
         return cls._of(text, name, unit, at_least(float(value), float(limit)), source)
 
     @classmethod
-    def _of(cls, text: str, name: str, unit: str, found: Mapping[str, Any], source: Source | None) -> Check:
+    def _of(cls, text: str, name: str, unit: str, values: Mapping[str, Any], source: Source | None) -> Check:
         """A check that was judged."""
-        value, limit, used = (float(found[one]) for one in ("value", "limit", "utilisation"))
-        return cls.saying(text, name, value, limit, unit, used, bool(found["holds"]), source=source)
+        value, limit, used = (float(values[one]) for one in ("value", "limit", "utilisation"))
+        return cls.saying(text, name, value, limit, unit, used, bool(values["holds"]), source=source)
 
     @classmethod
     def of(cls, row: Judgement, values: Mapping[str, Any], words: Mapping[str, str], source: Source | None) -> Check:
         """The row of the table of checks at one point; without a ``source`` of its own it has that of the row."""
-        found = row.finds(values)
-        if found is None:
+        result = row.finds(values)
+        if result is None:
             return cls.saying(NOT_CHECKED.format(input=row.give), row.name, None, None, row.unit, None, None, row.give)
-        text = row.text(found, words)
-        if found.get("judged", True):
+        text = row.text(result, words)
+        if result.get("judged", True):
             whose = words["limit_source"] if row.name == "diameter_speed_product" else ""
-            return cls._of(text, row.name, row.unit, found, source)._replace(whose_limit=whose)
-        missing = "" if found["at_rest"] else RUNNING_TIME
-        return cls.saying(text, row.name, float(found["value"]), None, row.unit, None, None, missing)
+            return cls._of(text, row.name, row.unit, result, source)._replace(whose_limit=whose)
+        missing = "" if result["at_rest"] else RUNNING_TIME
+        return cls.saying(text, row.name, float(result["value"]), None, row.unit, None, None, missing)
 
     @property
     def title(self) -> str:

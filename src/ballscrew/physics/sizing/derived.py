@@ -44,7 +44,7 @@ def derived(
     computed = load_ratings(screw)
     preload = getattr(screw.nut, "preload", None)
     nominal = _or(listed["nominal_diameter"], screw.pitch_circle_diameter)
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         **loads_at_point(axial_load, remaining_preload),
         "root_diameter": _or(listed["root_diameter"], groove_bottom(screw)),
         "dynamic_load_rating": _or(listed["dynamic_load_rating"], computed.dynamic),
@@ -53,7 +53,7 @@ def derived(
         "nut_speed": transmission.nut_speed(screw_speed, screw.lead),
     }
     if preload is None:
-        return found
+        return values
     subject = Subject(
         nominal_diameter=nominal,
         pitch_circle_diameter=screw.pitch_circle_diameter,
@@ -62,7 +62,7 @@ def derived(
         preload=preload,
         oversize_balls=screw.nut.contacts_per_ball > 2,
     )
-    return found | {
+    return values | {
         **{f"drag_by_{name}": torque for name, torque in drags(subject).items()},
         "preload_drag_of_balls": idle_torque - idle_losses,
         "implausible_preload": is_odd_preload(preload, rating_of(screw)) | is_unusual(PRELOAD, preload),

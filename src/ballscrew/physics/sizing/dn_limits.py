@@ -66,11 +66,11 @@ def printed_limit(make: str, recirculation: str = "") -> SpeedLimit | None:
     """The limit that is printed for a make and a recirculation; that of the standard nuts of the make else."""
     wanted, kind = make.casefold(), recirculation.casefold()
     listed = {(one.make.casefold(), one.recirculation.casefold()): one for one in printed_limits()}
-    found = (listed.get((wanted, kind)) or listed.get(("", kind))) if kind else None
-    if found is not None:
-        makes = found.make or "all makes"
-        words = f"of {makes} for this recirculation, {found.recirculation} ({found.source})"
-        return SpeedLimit(found.value, words, (found.source,))
+    result = (listed.get((wanted, kind)) or listed.get(("", kind))) if kind else None
+    if result is not None:
+        makes = result.make or "all makes"
+        words = f"of {makes} for this recirculation, {result.recirculation} ({result.source})"
+        return SpeedLimit(result.value, words, (result.source,))
     standard = listed.get((wanted, "")) if wanted else None
     if standard is None:
         return None

@@ -33,14 +33,14 @@ def judged(values: Mapping[str, Any], given: Mapping[str, Any] | None = None) ->
     first. The ids are those of :data:`JUDGED`, and what a row gives is named in its document, ``masks`` and
     ``numbers``: see :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
     """
-    found = judgements.judged(CHECKS, values)
-    of_all = {name: values.get(name) for name in ALL_CHECKS.takes} | counted(found, given)
-    return judgements.judged((*VERDICTS, *WARNINGS), values) | found | judgements.judged([ALL_CHECKS], of_all)
+    result = judgements.judged(CHECKS, values)
+    of_all = {name: values.get(name) for name in ALL_CHECKS.takes} | counted(result, given)
+    return judgements.judged((*VERDICTS, *WARNINGS), values) | result | judgements.judged([ALL_CHECKS], of_all)
 
 
-def outputs(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+def outputs(result: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """What :func:`judged` returns under one name each, ``check.buckling:value``, as outputs of a recording."""
-    return {f"{row}:{name}": value for row, of_row in found.items() for name, value in of_row.items()}
+    return {f"{row}:{name}": value for row, of_row in result.items() for name, value in of_row.items()}
 
 
 def documents() -> dict[str, Any]:
@@ -58,5 +58,5 @@ def documents() -> dict[str, Any]:
     ``words`` are given, and a ``constant`` stands as it is.
     """
     tables = {"verdicts": VERDICTS, "warnings": WARNINGS, "checks": CHECKS, "all_checks": (ALL_CHECKS,)}
-    found: dict[str, Any] = {name: [row.document() for row in rows] for name, rows in tables.items()}
-    return found | {"not_checked": NOT_CHECKED}
+    values: dict[str, Any] = {name: [row.document() for row in rows] for name, rows in tables.items()}
+    return values | {"not_checked": NOT_CHECKED}

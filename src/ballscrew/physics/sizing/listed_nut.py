@@ -9,7 +9,7 @@ from typing import Any, Protocol
 from ballscrew.basis.errors import Fault, either, nearest, shown
 from ballscrew.basis.quantities import Force, fields_of
 from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.physics.components.nut_losses import Seals
+from ballscrew.physics.laws.nut_losses import Seals
 from ballscrew.physics.sizing.ratings import Rated, ratings_of
 
 #: The names of the kinds of nut stand here and nowhere else.

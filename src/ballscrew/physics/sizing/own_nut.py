@@ -24,9 +24,9 @@ from ballscrew.basis.quantities import (
 )
 from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE
-from ballscrew.physics.components.nut_losses import Seals, seal_table
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
+from ballscrew.physics.laws.nut_losses import Seals, seal_table
 from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, SMALLEST_BALL, CatalogueRow
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
 from ballscrew.physics.solvers.rated_ball import ball_of_rating

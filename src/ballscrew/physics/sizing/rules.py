@@ -16,15 +16,9 @@ from ballscrew.basis.arrays import where
 from ballscrew.basis.errors import plain
 from ballscrew.basis.judgements import is_nan
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
-from ballscrew.physics.components.nut_losses import (
-    DOUBLE_NUT_DRAG,
-    OVERSIZE_BALL_DRAG,
-    EfficiencyDrag,
-    JISDrag,
-    RexrothDrag,
-)
 from ballscrew.physics.equations import geometry, preload, transmission
 from ballscrew.physics.friction.calibrations import is_of_maker
+from ballscrew.physics.laws.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
 
 #: The efficiency that THKGeneral computes its examples with; it states 0.9 to 0.95, HIWIN2017 0.85 to 0.95.
 USUAL_EFFICIENCY = 0.9

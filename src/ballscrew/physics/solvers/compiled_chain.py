@@ -59,11 +59,11 @@ class CarriedLoads(NamedTuple):
 
 def compiled_chain_balance(springs: BallSprings, bars: Bars, load: Field, scale: Field, start: Field) -> Field:
     """The displacements at which a chain of bars carries a load."""
-    found = _balanced(springs, bars, load, scale, start, STEPS)
-    x, force, slope = found.displacement, found.force, found.slope
+    result = _balanced(springs, bars, load, scale, start, STEPS)
+    x, force, slope = result.displacement, result.force, result.slope
     x += np.where(slope > 0, (load - force) / np.where(slope > 0, slope, 1.0), 0.0)
-    if not found.settled.all():
-        open_ = np.flatnonzero(~found.settled)
+    if not result.settled.all():
+        open_ = np.flatnonzero(~result.settled)
         among = np.resize(open_, max(open_.size, FEWEST_POINTS))
         slow = chain_balance(springs.at(among), bars.at(among), load[among], scale[among], start[:, among])
         x[:, open_] = slow[:, : open_.size]
@@ -77,12 +77,12 @@ def compiled_widened_balance(
     given, chains = _given(springs, bars, load, scale, start)
     sources = _sources([*_numbers(springs), bars.stiffness])
     kernel = _widened_kernel(len(springs.flanks), springs.constant_angle, sources)
-    found = balanced_chains(kernel, given, chains, STEPS, _rings(swelling, load.size))
-    x, force, slope, left = found.displacement, found.force, found.slope, found.imbalance
-    gap = found.opening[: len(swelling.members)]
+    result = balanced_chains(kernel, given, chains, STEPS, _rings(swelling, load.size))
+    x, force, slope, left = result.displacement, result.force, result.slope, result.imbalance
+    gap = result.opening[: len(swelling.members)]
     x += np.where(slope > 0, (load - force) / np.where(slope > 0, slope, 1.0), 0.0)
-    if not found.settled.all():
-        open_ = np.flatnonzero(~found.settled)
+    if not result.settled.all():
+        open_ = np.flatnonzero(~result.settled)
         among = np.resize(open_, max(open_.size, FEWEST_POINTS))
         some, links, bodies = springs.at(among), bars.at(among), swelling.at(among)
         slow = widened_balance(some, links, bodies, load[among], scale[among], start[:, among])
@@ -134,10 +134,10 @@ def compiled_loads(springs: BallSprings, displacement: Field, works: Field, *, s
     inputs = [displacement, works, *_numbers(springs)]
     sources: tuple[Source, ...] = ("points", "columns", *_sources(inputs[2:]))
     kernel, names, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, swells, sources)
-    found = {n: aligned_array(count + spare if n in sums else links * count, float) for n in names}
+    values = {n: aligned_array(count + spare if n in sums else links * count, float) for n in names}
     whole = [np.ascontiguousarray(_whole(number, links, count)) for number in inputs]
-    kernel(slice(0, links), slice(0, count), count, whole, list(found.values()), past_cache=False, tile=TILE)
-    return CarriedLoads(**{n: held[:count] if n in sums else held.reshape(links, count) for n, held in found.items()})
+    kernel(slice(0, links), slice(0, count), count, whole, list(values.values()), past_cache=False, tile=TILE)
+    return CarriedLoads(**{n: held[:count] if n in sums else held.reshape(links, count) for n, held in values.items()})
 
 
 def compiled_response(bars: Bars, slope: Field) -> Field:
@@ -209,17 +209,17 @@ def _load_kernel(
     def formula(x: Any, works: Any, *numbers: Any) -> Mapping[str, Any]:
         springs = _made_of(constant_angle, *numbers)
         pairs = [(each.facing, springs.loads(each, x)) for each in springs.flanks]
-        found: dict[str, Any] = {"slope": springs.balls * sum(there.slope for _, there in pairs)}
+        values: dict[str, Any] = {"slope": springs.balls * sum(there.slope for _, there in pairs)}
         for side, facing in (("forward", 1), ("backward", -1)):
             load = sum(np.where(pair == facing, there.load, 0.0) for pair, there in pairs)
             angle = sum(np.where(pair == facing, np.arcsin(there.sine), 0.0) for pair, there in pairs)
             force = sum(np.where(pair == facing, facing * there.axial_force, 0.0) for pair, there in pairs)
-            found |= {f"{side}_load": np.where(works != 0, load, 0.0), f"{side}_angle": angle}
-            found[f"on_{side}"] = springs.balls * np.where(works != 0, force, 0.0)
+            values |= {f"{side}_load": np.where(works != 0, load, 0.0), f"{side}_angle": angle}
+            values[f"on_{side}"] = springs.balls * np.where(works != 0, force, 0.0)
         if swells:  # the springs are widened already
             pushes = springs.pushed_apart(x, 0.0 * x)
-            found |= {name: getattr(pushes, name) for name in names[-2:]}
-        return {name: found[name] for name in names}
+            values |= {name: getattr(pushes, name) for name in names[-2:]}
+        return {name: values[name] for name in names}
 
     program = _recorded(flanks, 2, formula)
     sums: dict[str, Any] = {"on_forward": np.sum, "on_backward": np.sum}

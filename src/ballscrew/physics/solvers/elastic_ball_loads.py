@@ -134,17 +134,17 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
             rest = _balance(case, point, without_load, bars, swelling, 0 * point.load)
         else:
             rest = rest._replace(displacement=0 * rest.displacement)
-    springs, found, left, _ = _balance(case, point, without_load, bars, swelling, point.load)
+    springs, values, left, _ = _balance(case, point, without_load, bars, swelling, point.load)
     if not (case.halves == 2 or case.oversize):
-        found = np.where(point.load != 0, found, rest.displacement)
+        values = np.where(point.load != 0, values, rest.displacement)
     at_rest = rest.displacement
     # without load and preload balls just touch; what rounding makes of that is no load
     works = np.abs(point.load) + point.preload > 0
     is_idle = (point.load == 0) & (point.preload == 0)
     if case.compiled:
-        carried = compiled_loads(springs, found, works.astype(float), swells=case.swells)
+        carried = compiled_loads(springs, values, works.astype(float), swells=case.swells)
     else:
-        carried = _carried(springs, found, works)
+        carried = _carried(springs, values, works)
     imbalance = np.abs(carried.on_forward - carried.on_backward - point.load)
     if case.halves == 2:
         braced = np.where(rest.springs.flanks[0].facing > 0, rest.springs.forces(at_rest)[0], 0.0).sum(axis=0)
@@ -153,15 +153,15 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     relative = imbalance / point.forces_at_work
     if case.elastic:
         if not case.compiled:
-            left = np.maximum(chain_imbalance(springs, bars, point.load, found), left)
+            left = np.maximum(chain_imbalance(springs, bars, point.load, values), left)
         elif not case.swells:
-            left = compiled_imbalance(springs, bars, point.load, found)
+            left = compiled_imbalance(springs, bars, point.load, values)
         of_balls = left / point.forces_at_work
         relative = np.where(of_balls > LARGEST_OF_A_BALL, of_balls, relative)
     return (
         *carried[:4],
-        _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
-        np.where(is_idle, 0.0, 1 / _compliance(case, point, springs, bars, swelling, found, carried)),
+        _travel(case, point, bars, values, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
+        np.where(is_idle, 0.0, 1 / _compliance(case, point, springs, bars, swelling, values, carried)),
         np.where(point.load < 0, carried.on_forward, carried.on_backward),
         _lift_off_load(case, point, without_load),
         np.where(works, relative, 0.0),
@@ -261,8 +261,8 @@ def _balance(
         balance = compiled_chain_balance if case.compiled else chain_balance
         return Balance(springs, balance(springs, bars, load, forces, start), 0 * load)
     widen = compiled_widened_balance if case.compiled else widened_balance
-    gap, found, left = widen(springs, bars, swelling, load, forces, start)
-    return Balance(swelling.widened(springs, gap), found, left, gap)
+    gap, result, left = widen(springs, bars, swelling, load, forces, start)
+    return Balance(swelling.widened(springs, gap), result, left, gap)
 
 
 def _braced(
@@ -314,7 +314,7 @@ def _compliance(
     springs: BallSprings,
     bars: Bars,
     swelling: Swelling | None,
-    found: Field,
+    field: Field,
     carried: CarriedLoads,
 ) -> Ratio:
     """Slope of the travel by the load, from those of the balls' forces by their displacements."""
@@ -328,7 +328,7 @@ def _compliance(
     if swelling is not None and by_opening is not None and by_displacement is not None:
         moved = compiled_widened_response(bars, swelling, slope, by_opening, by_displacement)
     elif swelling is not None:
-        moved = widened_response(springs, bars, swelling, found, right)
+        moved = widened_response(springs, bars, swelling, field, right)
     elif case.compiled:
         moved = compiled_response(bars, slope)
     else:

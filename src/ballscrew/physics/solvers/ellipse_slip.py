@@ -24,9 +24,9 @@ from typing import Any, NamedTuple
 
 from ballscrew.basis.arrays import in_blocks, namespace
 from ballscrew.basis.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import kinematics, slip
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.traits import law_traits
 from ballscrew.physics.solvers.line_slip import creep_of_lines, pure_rolling_lines
 from ballscrew.physics.solvers.slip import (
     BallProblem,

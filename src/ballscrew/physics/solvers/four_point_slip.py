@@ -30,7 +30,7 @@ from typing import Any, NamedTuple
 
 from ballscrew.basis.arrays import in_blocks, namespace
 from ballscrew.basis.quantities import Angle, Force, Length, Mask, Ratio, Torque
-from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.laws.contact import Contact
 from ballscrew.physics.solvers.oversize_ball_contacts import (
     Ball,
     ContactInput,
@@ -219,9 +219,9 @@ def _solved(matrix: Sequence[Sequence[Any]], slopes: Sequence[Any]) -> list[Any]
             rest = matrix[i][j] - sum(factor[i][k] * factor[j][k] for k in range(j))
             # rounding may leave nothing of a diagonal: then that freedom stays where it is
             factor[i][j] = xp.sqrt(xp.maximum(rest, 1e-30)) if i == j else rest / factor[j][j]
-    found: list[Any] = []
+    values: list[Any] = []
     for i in range(n):
-        found.append((-slopes[i] - sum(factor[i][k] * found[k] for k in range(i))) / factor[i][i])
+        values.append((-slopes[i] - sum(factor[i][k] * values[k] for k in range(i))) / factor[i][i])
     for i in reversed(range(n)):
-        found[i] = (found[i] - sum(factor[k][i] * found[k] for k in range(i + 1, n))) / factor[i][i]
-    return found
+        values[i] = (values[i] - sum(factor[k][i] * values[k] for k in range(i + 1, n))) / factor[i][i]
+    return values

@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import kinematics, slip
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.traits import law_traits
 from ballscrew.physics.solvers.slip import (
     BallProblem,
     ContactSlip,

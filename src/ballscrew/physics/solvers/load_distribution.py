@@ -34,10 +34,10 @@ import numpy as np
 from ballscrew.basis.arrays import as_array, in_blocks, lazy, map_blocks, namespace
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
 from ballscrew.basis.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
-from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.nut import Bodies, Deviations, Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew, Raceway
 from ballscrew.physics.equations import deflection, geometry, hertz, rigidity
+from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers.ball_springs import Field
 from ballscrew.physics.solvers.compiled_chain import FEWEST_POINTS
 from ballscrew.physics.solvers.elastic_ball_loads import NutCase, elastic_lift_off_load, solved
@@ -70,8 +70,8 @@ class LiftOff:
 
     def __call__(self) -> Force:
         """The load, N; NaN for a preload below zero."""
-        (found,) = _solution(elastic_lift_off_load, self.case, self.points)
-        return self.points.all_of(found)[self.places][()]
+        (result,) = _solution(elastic_lift_off_load, self.case, self.points)
+        return self.points.all_of(result)[self.places][()]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -340,8 +340,8 @@ def _solution(solve_block: Callable[..., tuple[Field, ...]], case: NutCase, poin
         alone = block.stop - block.start == 1 and block.start > 0  # with one before it, sums have one order
         here = slice(block.start - alone, block.stop)
         with np.errstate(all="ignore"):
-            found = solve_block(case, *(n if n.size == 1 else n[here] for n in points.numbers))
-        parts[block.start // size] = [part[..., 1:] for part in found] if alone else found
+            result = solve_block(case, *(n if n.size == 1 else n[here] for n in points.numbers))
+        parts[block.start // size] = [part[..., 1:] for part in result] if alone else result
 
     map_blocks(solve, load.size, block_size=size)
     joined = parts[0] if len(parts) == 1 else [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.quantities import Force, Length, Ratio, Torque
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import friction
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.traits import law_traits
 from ballscrew.physics.solvers.slip import BallProblem, ContactSlip, Slip, sliding_forces
 
 #: A fixed number of steps: block sizes and neighbours in an array cannot change a result.

@@ -160,8 +160,8 @@ class Groove(NamedTuple):
         for _ in range(steps):
             delta = kappa * v
             above, below, turning = delta * (delta + 2) + a * a, 1 + delta, delta * self.cosine**2
-            found, wanted, both = v * v * v * above, below * below, above * below
-            v = v + v * both * (wanted - found) / (found * (2 * both + turning) + wanted * (both + turning))
+            result, wanted, both = v * v * v * above, below * below, above * below
+            v = v + v * both * (wanted - result) / (result * (2 * both + turning) + wanted * (both + turning))
         return kappa * v
 
     def displacement(self, approach: Ratio) -> Ratio:

@@ -7,9 +7,9 @@ from typing import NamedTuple, Protocol
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
-from ballscrew.physics.components.balance import Resistances, ball_forces
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.frame import Frame
+from ballscrew.physics.laws.balance import Resistances, ball_forces
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.frame import Frame
 
 
 class BallProblem(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,11 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
-from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, quantities_of
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, Unit, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
+from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
+from ballscrew.questions.shared.envelope import envelope
 
 #: Places within the travel that the terminal shows.
 SHOWN = 5
@@ -248,3 +250,35 @@ def _travel(case: Case, length: Length) -> tuple[Length, Length] | None:
         return None
     places = states.places_on(length, None if case.surroundings is None else case.surroundings.first_position)
     return float(np.min(places)), float(np.max(places))
+
+
+class AtPlace(table_of(SERIES)):
+    """Numbers at one place of the nut."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ChainResults(table_of(SERIES, of=Sequence[float])):
+    """Rigidity, lost motion, critical speed and buckling load over the place of the nut."""
+
+    shares: Annotated[Mapping[str, Sequence[float]], Unit("1"), Info("", "share of each spring in the compliance")]
+    travel: Annotated[Sequence[float], Unit("m"), Info("", "places of the nut at the ends of its travel", "mm"), FINITE]
+    #: False where the places are those of the whole shaft.
+    travel_is_known: bool
+    #: The place in the travel where the chain gives way most.
+    softest: AtPlace
+    largest_load: Annotated[Force, LOAD.info]
+    largest_speed: Annotated[AngularSpeed, SPEED.info]
+    guide_friction: Annotated[Force, FRICTION.info]
+
+
+def document(report: ChainReport) -> dict[str, Any]:
+    """The document of a chain, in SI; a spring that is not known is null."""
+    softest = AtPlace(**{name: values[report.softest] for name, values in report.series.items()})
+    results = from_attributes(ChainResults, report, **report.series, shares=report.chain.shares, softest=softest)
+    return envelope(
+        report.case,
+        results,
+        assumed=report.assumed,
+        warnings=report.case.implausible(),
+        verdicts=report.verdicts,
+    )

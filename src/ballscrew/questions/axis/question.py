@@ -11,20 +11,19 @@ from ballscrew.questions.shared.question import Answer, Endpoint, Question, Requ
 
 def _prepare(request: Request) -> Work:
     from ballscrew.questions.axis import compute
-    from ballscrew.questions.axis.answer import document
     from ballscrew.questions.axis.sheet import sheet
 
     options, case = request.options(AxisOptions), request.load(compute.moves)
 
     def answer(_: object) -> Answer:
         report = compute.chain_of(case, options.at)
-        return Answer(sheet(report), lambda: document(report), f"{len(report.chain.position)} places")
+        return Answer(sheet(report), lambda: compute.document(report), f"{len(report.chain.position)} places")
 
     return Work(answer)
 
 
 def _response() -> Any:
-    from ballscrew.questions.axis.answer import ChainResults
+    from ballscrew.questions.axis.compute import ChainResults
     from ballscrew.questions.shared.answer_parts import Assumed
     from ballscrew.questions.shared.declared import response
 

@@ -23,9 +23,9 @@ from ballscrew.engine.uncertainty.bands import Band, BandCurve
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.engine.uncertainty.sampling import Joint, JointParts
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, calibrations, is_of_maker
 from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import preload_of
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.compare import compute as comparison

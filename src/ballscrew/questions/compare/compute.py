@@ -12,7 +12,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.makers_rules import subject_of
 from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.engine.evaluation.comparison import Candidate, ComparedRule, Comparison, OfBalls, Row, compare, same_law
-from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.rules import RULES, Estimate
 from ballscrew.physics.solvers.load_distribution import preload_of
 

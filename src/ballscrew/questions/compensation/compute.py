@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -11,8 +13,10 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, nearest
-from ballscrew.basis.quantities import Duration
+from ballscrew.basis.quantities import Duration, Length, Unit
 from ballscrew.questions.compensation.options import STEP, CompensationOptions
+from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.warm_up import verdicts
 from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, check_hours
 
 #: The number of points of a list at most (SINUMERIK 808D).
@@ -128,3 +132,30 @@ def _stopped(stopped: Duration, hours: float) -> Fault:
     )
     less = f"write --hours {reached:g} at most, or " if reached else ""
     return Fault("--hours", problem, f"{hours:g}", f"{less}look at ballscrew warm-up: less work, or more cooling")
+
+
+class CompensationResults(NamedTuple):
+    """Positions of an axis, and by how much the nut is farther along there than its encoder says."""
+
+    position: Annotated[Sequence[float], Unit("m")]
+    error: Annotated[Sequence[float], Unit("m")]
+    #: What straight lines between the positions miss of the computed growth.
+    worst_error: Length
+    #: Length of the cells of the shaft.
+    cell: Length
+    hours: Annotated[float, Unit("h")]
+    #: Positions grow away from the fixed bearing, or towards it.
+    direction: str
+
+
+def document(found: PositionCompensation, report: WarmUpReport) -> dict[str, Any]:
+    """The document of a compensation of positions, in SI."""
+    return envelope(
+        report.case,
+        CompensationResults(
+            found.positions.tolist(), found.errors.tolist(), found.worst_error, found.cell, found.hours, found.direction
+        ),
+        assumed=report.assumed,
+        warnings=verdicts.warnings(report),
+        verdicts=verdicts.verdicts(report),
+    )

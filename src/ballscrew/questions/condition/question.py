@@ -24,7 +24,6 @@ MOST_LOGS = 100
 
 def _prepare(request: Request) -> Work:
     from ballscrew.questions.condition import compute
-    from ballscrew.questions.condition.answer import document
     from ballscrew.questions.condition.sheet import sheet
 
     tests = request.files["tests"]
@@ -34,7 +33,9 @@ def _prepare(request: Request) -> Work:
 
     def answer(done: Done) -> Answer:
         condition = compute.of_files(case, tests, options, done)
-        return Answer(sheet(case, condition), lambda: document(case, condition), f"{len(condition.states)} tests")
+        return Answer(
+            sheet(case, condition), lambda: compute.document(case, condition), f"{len(condition.states)} tests"
+        )
 
     return Work(answer, "condition")
 
@@ -52,7 +53,7 @@ def _check_files(request: Request) -> None:
 
 
 def _response() -> Any:
-    from ballscrew.questions.condition.answer import ConditionResults
+    from ballscrew.questions.condition.compute import ConditionResults
     from ballscrew.questions.shared.answer_parts import OfLogs
     from ballscrew.questions.shared.declared import response
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
@@ -23,19 +23,17 @@ from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import (
-    Acceleration,
     AngularSpeed,
     Duration,
     Energy,
     Force,
     Info,
-    Length,
     Power,
     Pressure,
     Quantity,
     Ratio,
-    Speed,
     Torque,
+    Unit,
     quantities_of,
 )
 from ballscrew.cases.case_files.case import Case
@@ -50,10 +48,28 @@ from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.questions.duty.parts import (
+    TORQUE_PEAK,
+    TORQUE_RMS,
+    Catalogue,
+    Cycle,
+    Life,
+    Mechanics,
+    MotorCurve,
+    MotorUse,
+    PhaseNumbers,
+    PositionSmoothing,
+    Rules,
+    SpeedSmoothing,
+    WorstState,
+)
 from ballscrew.questions.duty.short_reversal import ShortReversal, short_reversal
-from ballscrew.questions.shared.declared import Answer
+from ballscrew.questions.shared.declared import LEFT_OUT, Answer, from_attributes, part, table_of
 
 DAY = 86400.0
+#: States of a cycle in a document; of more, each second, third … one: all of them are in a table in a file.
+MOST_STATES = 2000
+_SCREW_TORQUE = Info("M_S", "largest friction torque of the screw in the cycle")
 #: The efficiency of the rule of catalogues where the case has a model: that of their worked examples (THK514E).
 RULE_EFFICIENCY = 0.9
 #: The checks of one operating point that are of speeds and largest loads; those of life are of the whole cycle.
@@ -76,6 +92,11 @@ def slug_of(name: str) -> str:
     return _SLUGS.get(name, name.replace(" ", "_"))
 
 
+def words_of(slug: str) -> str:
+    """A part of the torque, or an element, in words."""
+    return MECHANISMS.get(slug, slug.replace("_", " "))
+
+
 def cause_of(name: str) -> str:
     """The cause, of :data:`CAUSES`, that a part of the torque belongs to."""
     if name in _OF_STORED or name == axis_duty.PROCESS:
@@ -83,64 +104,20 @@ def cause_of(name: str) -> str:
     return _BALLS if name in MECHANISMS.values() or name == "efficiency" else _OTHERS
 
 
-class PhaseNumbers(NamedTuple):
-    """Numbers of one phase of a motion."""
-
-    #: Its name in the motion.
-    name: str
-    #: Time from the start of the cycle to its own.
-    start: Duration
-    #: Time that it takes.
-    duration: Duration
-    #: Largest size of the axial load.
-    largest_load: Force
-    #: Largest torque of the motor, with its sign.
-    torque_peak: Torque
-    #: RMS torque of the motor.
-    torque_rms: Torque
-    #: Energy that the motor gives, less what it takes back.
-    energy: Energy
-
-
-@dataclasses.dataclass(frozen=True)
-class Smoothing:
-    """How a recorded motion was smoothed, and what that does to the RMS torque."""
-
-    #: Recorded samples.
-    samples: int
-    #: Samples on either side that the smoothing reaches.
-    half_width: int
-    #: Standard deviation of one recorded sample.
-    noise: float
-    #: What is left of it in the acceleration.
-    acceleration_noise: Acceleration
-    #: RMS torque with the narrowest smoothing, N m.
-    torque_rms_unsmoothed: Torque
-
-
-@dataclasses.dataclass(frozen=True)
-class PositionSmoothing(Smoothing):
-    """How recorded positions were smoothed, and what that does to the RMS torque."""
-
-    noise: Length
-
-
-@dataclasses.dataclass(frozen=True)
-class SpeedSmoothing(Smoothing):
-    """How recorded speeds were smoothed, and what that does to the RMS torque."""
-
-    noise: Speed
-
-
 @dataclasses.dataclass(frozen=True, eq=False)
-class DutyReport:
-    """A cycle of a case and what follows from it."""
+class CycleNumbers(Answer):
+    """The numbers of a cycle, each declared and computed here, in the order in which they are shown.
+
+    Torques, and the life by the larger mean load alone, are by the rule of catalogues where the case asks for it;
+    energies are always by mechanics. A new number is one property: terminal, JSON, its schema, tables, report and page
+    have it from here.
+    """
 
     case: Case
     axis: Axis
     motion: Motion
     duty: Duty
-    life: CycleLife
+    cycle_life: CycleLife
     rating_source: str
     rule: VendorRule
 
@@ -149,34 +126,235 @@ class DutyReport:
         """True where the case asks for the rule of catalogues, and mechanics stands beside it."""
         return self.case.efficiency is not None
 
-    @lazy
-    def brake(self) -> Brake:
-        """What happens with the motor off."""
-        return brake_of(self.duty)
+    @property
+    def _torques(self) -> VendorRule | Duty:
+        return self.rule if self.by_rule else self.duty
 
-    @lazy
-    def motor(self) -> MotorCheck | None:
-        """The duty against the motor of the case."""
-        if self.case.motor is None:
-            return None
-        return MotorCheck(self.duty, self.case.motor, self.rule.torque if self.by_rule else None)
+    @property
+    def _cycles_a_day(self) -> float:
+        return DAY / self.duty.states.cycle_time
+
+    @part
+    def cycle_time(self) -> Annotated[Duration, Info("t_c", "time of a cycle")]:
+        """Time from the start of a cycle to that of the next."""
+        return self.duty.states.cycle_time
+
+    @part
+    def torque_peak(self) -> Annotated[Torque, TORQUE_PEAK]:
+        """By the rule of catalogues where the case asks for it."""
+        return self._torques.torque_peak
+
+    @part
+    def torque_rms(self) -> Annotated[Torque, TORQUE_RMS]:
+        """By the rule of catalogues where the case asks for it."""
+        return self._torques.torque_rms
+
+    @part
+    def mean_speed(self) -> Annotated[AngularSpeed, Info("n_m", "mean speed of the screw over the cycle", "rpm")]:
+        """Mean of the size of the speed of the screw."""
+        return self.duty.mean_speed
+
+    @part
+    def largest_speed(self) -> Annotated[AngularSpeed, Info("n_max", "largest speed of the motor", "rpm")]:
+        """Largest size of the speed of the motor."""
+        return float(np.max(np.abs(self.duty.motor_speed)))
+
+    @part
+    def power_peak(self) -> Annotated[Power, Info("P_{max}", "largest power of the motor")]:
+        """Largest power that the motor gives; zero where it gives none."""
+        return max(float(np.max(self.duty.power)), 0.0)
+
+    @part
+    def power_returned_peak(self) -> Annotated[Power, Info("P_{min}", "largest power that drives the motor")]:
+        """Largest power that the motor takes back; zero where it takes none."""
+        return max(float(-np.min(self.duty.power)), 0.0)
+
+    @part
+    def energy_drawn(self) -> Annotated[Energy, Info("E_+", "energy that the motor gives in a cycle")]:
+        """Integral of the power of the motor where it is positive."""
+        return self.duty.energy_drawn
+
+    @part
+    def energy_returned(self) -> Annotated[Energy, Info("E_-", "energy that it takes back")]:
+        """Integral of the power of the motor where it is negative, as a positive number."""
+        return self.duty.energy_returned
+
+    @part
+    def energy_lost(self) -> Annotated[Energy, Info("E_f", "energy lost to friction in a cycle")]:
+        """All friction of the axis, over the cycle."""
+        return self.duty.energy_lost
+
+    @part
+    def energy_of_process(self) -> Annotated[Energy, Info("E_x", "work on the process in a cycle")]:
+        """Work of the axis against the force of the process."""
+        return self.duty.energy_of_process
+
+    @part
+    def energy_stored(self) -> Annotated[Energy, Info(r"\Delta E", "energy stored between start and end of the cycle")]:
+        """Not zero where a cycle does not end where it began."""
+        return self.duty.energy_stored
+
+    @part
+    def energy_per_day(
+        self,
+    ) -> Annotated[Energy, Info("E_d", "energy a day, if nothing is used that comes back", "kW h")]:
+        """Energy drawn, cycle after cycle."""
+        return self._cycles_a_day * self.duty.energy_drawn
+
+    @part
+    def energy_per_day_with_recovery(
+        self,
+    ) -> Annotated[Energy, Info("E_r", "energy a day, if all that comes back is used", "kW h")]:
+        """Energy drawn less that returned, cycle after cycle."""
+        return self._cycles_a_day * (self.duty.energy_drawn - self.duty.energy_returned)
+
+    @part
+    def mean_load(self) -> Annotated[Force, Info("F_m", "mean load of the more loaded flank or half")]:
+        """Cubic mean over the turns."""
+        return self.cycle_life.mean_load
+
+    @part
+    def mean_load_of_both(self) -> Annotated[Force, Info("F_a", "mean size of the axial load")]:
+        """Cubic mean over the turns, without regard to sign and preload."""
+        return self.cycle_life.mean_load_of_both
+
+    @part
+    def life_revolutions(self) -> Annotated[Ratio, Info("L", "basic rating life L10 in revolutions")]:
+        """By the larger mean load alone where the case asks for the rule of catalogues."""
+        life = self.cycle_life
+        return life.revolutions_of_the_worse if self.by_rule else life.revolutions
+
+    @part
+    def life_cycles(self) -> Annotated[Ratio, Info("N_c", "basic rating life L10 in cycles")]:
+        """NaN where nothing turns."""
+        turns = self.duty.revolutions
+        return self.life_revolutions / turns if turns else math.nan
+
+    @part
+    def life_time(self) -> Annotated[Duration, Info("L_h", "basic rating life L10h, cycle after cycle", "h")]:
+        """Cycles of the life, each as long as the cycle."""
+        return self.life_cycles * self.cycle_time
+
+    @part
+    def revolutions(self) -> Annotated[Ratio, Info("q", "turns of the screw in a cycle")]:
+        """Turns both ways."""
+        return self.duty.revolutions
+
+
+#: The numbers of a cycle, and those that are different in a full bath of oil.
+NUMBERS: Mapping[str, Quantity] = quantities_of(CycleNumbers)
+OF_BATH: Mapping[str, Quantity] = {
+    **{
+        name: NUMBERS[name]
+        for name in (
+            "torque_peak",
+            "torque_rms",
+            "power_peak",
+            "power_returned_peak",
+            "energy_drawn",
+            "energy_returned",
+            "energy_lost",
+        )
+    },
+    "screw_torque": Quantity("screw_torque", "N m", _SCREW_TORQUE),
+}
+
+
+class FullBath(table_of(OF_BATH)):
+    """Numbers of the cycle in a full bath of oil."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class DutyReport(CycleNumbers):
+    """The results of a cycle of an axis."""
 
     @lazy
     def numbers(self) -> Mapping[str, float]:
         """The numbers of the cycle in SI, as :class:`CycleNumbers` declares them."""
-        found = CycleNumbers(self)
-        return {name: float(getattr(found, name)) for name in NUMBERS}
+        return {name: float(getattr(self, name)) for name in NUMBERS}
 
-    @property
+    @part
+    def torque_by(self) -> Literal["rule", "mechanics"]:
+        """What the torques above are by: mechanics, or the rule of catalogues where the case asks for it."""
+        return "rule" if self.by_rule else "mechanics"
+
+    @part
+    def torque_peak_by(self) -> Mapping[str, Torque]:
+        """Parts of the peak torque.
+
+        They are those where it is largest, with the sign of their sum; by mechanics.
+        """
+        at = int(np.argmax(np.abs(self.duty.torque)))
+        sign = math.copysign(1.0, float(self.duty.torque[at]))
+        return {slug_of(name): sign * float(values[at]) for name, values in self.duty.parts.items()}
+
+    @part
+    def torque_rms_by(self) -> Mapping[str, Torque]:
+        r"""Parts of the RMS torque.
+
+        :math:`\frac{1}{t_c \tau_{rms}} \int \tau_i \tau dt`: they sum to it, and share out the heat of the
+        motor. A part that acts against the others is negative.
+        """
+        states, torque = self.duty.states, self.duty.torque
+        scale = states.cycle_time * self.duty.torque_rms
+        return {
+            slug_of(name): states.integral(values * torque) / scale if scale else 0.0
+            for name, values in self.duty.parts.items()
+        }
+
+    @part
+    def inertia_by(
+        self,
+    ) -> Annotated[Mapping[str, float], Unit("kg m^2"), Info("J", "moment of inertia at the motor")]:
+        """Of each part that turns."""
+        return _by_slug(self.axis.inertia_by)
+
+    @part
+    def energy_by(self) -> Mapping[str, Energy]:
+        """Energy of a cycle by cause."""
+        return _by_slug(self.duty.energy_by)
+
+    @part
+    def energy_lost_by(self) -> Mapping[str, Energy]:
+        """Energy lost in a cycle by mechanism."""
+        return _by_slug(self.duty.energy_lost_by)
+
+    @part
+    def energy_lost_in(
+        self,
+    ) -> Annotated[Mapping[str, Mapping[str, float]], Unit("J"), Info("E_f", "energy lost by element and mechanism")]:
+        """Without parts that are rounding."""
+        least = _LEAST * self.duty.energy_drawn
+        lost = {
+            slug_of(name): _by_slug({cause: energy for cause, energy in parts.items() if abs(energy) > least})
+            for name, parts in self.duty.energy_lost_in.items()
+        }
+        return {name: parts for name, parts in lost.items() if parts}
+
+    @part
+    def heat_by_element(self) -> Mapping[str, Power]:
+        """Mean heat of each element over the cycle."""
+        return _by_slug(self.duty.heat)
+
+    @part
+    def screw_torque(self) -> Annotated[Torque, _SCREW_TORQUE]:
+        """Largest friction torque of the screw, which its oil changes the most."""
+        return self.duty.screw_torque
+
+    @part
     def flooded_torque(self) -> Torque | None:
-        """Largest torque of the motor in a full bath of oil, N m; None for one efficiency, which knows no oil."""
+        """Largest torque of the motor in a full bath of oil; null for one efficiency."""
         return None if self.by_rule else self.duty.flooded.torque_peak
 
+    @part
+    def full_bath(self) -> FullBath | None:
+        """Numbers of the cycle in a full bath of oil; null for one efficiency, which knows no oil."""
+        return None if self.by_rule else FullBath(**{name: float(getattr(self.bath, name)) for name in OF_BATH})
+
     @lazy
-    def full_bath(self) -> Mapping[str, float]:
-        """The numbers of the cycle that friction changes, in a full bath of oil, as :data:`OF_BATH` has them."""
-        found = BathNumbers(self)
-        return {name: float(getattr(found, name)) for name in OF_BATH}
+    def bath(self) -> DutyReport:
+        """The same cycle in a full bath of oil."""
+        return dataclasses.replace(self, duty=self.duty.flooded)
 
     @lazy
     def motor_torque(self) -> Mapping[str, Torque]:
@@ -185,64 +363,67 @@ class DutyReport:
         Where the screw is starved of oil, each is the larger of that with the inlet as it is given and that in a full
         bath of oil; the rule of catalogues knows no oil.
         """
-        found = {name: abs(self.numbers[name]) for name in ("torque_peak", "torque_rms")}
+        torques = {name: abs(self.numbers[name]) for name in ("torque_peak", "torque_rms")}
         if self.by_rule or not self.duty.starved:
-            return found
-        return {name: max(torque, self.full_bath[name]) for name, torque in found.items()}
+            return torques
+        return {name: max(torque, self.bath.numbers[name]) for name, torque in torques.items()}
+
+    @part
+    def largest_load(self) -> Force:
+        """Largest size of the axial load."""
+        return float(np.max(np.abs(self.duty.axial_load)))
+
+    @part
+    def maximum_pressure(self) -> Pressure:
+        """Largest contact pressure."""
+        return _extreme(np.fmax.reduce, self._in_motion(self.duty.screw.maximum_pressure))
+
+    @part
+    def minimum_film_parameter(self) -> Ratio:
+        """Least film parameter in motion."""
+        return _extreme(np.fmin.reduce, self._in_motion(self.duty.screw.film_parameter))
+
+    @part
+    def valid(self) -> bool:
+        """True where the model holds in all states in motion."""
+        return bool(np.all(self._in_motion(self.duty.screw.valid)))
+
+    def _in_motion(self, values: Numbers) -> Numbers:
+        """Those of the states in motion."""
+        return values[self.duty.states.direction != 0]
+
+    @part
+    def life(self) -> Life:
+        """Mean loads and life over the cycle."""
+        life = self.cycle_life
+        loads, lives = _by_slug(life.mean_loads), _by_slug(life.lives)
+        return from_attributes(Life, life, rating_source=self.rating_source, mean_loads=loads, lives=lives)
+
+    @part
+    def brake(self) -> Brake:
+        """What the axis does with its motor off."""
+        return brake_of(self.duty)
 
     @lazy
-    def torque_peak_by(self) -> Mapping[str, Torque]:
-        """Parts of the torque where it is largest, N m, with the sign of their sum; by mechanics."""
-        at = int(np.argmax(np.abs(self.duty.torque)))
-        sign = math.copysign(1.0, float(self.duty.torque[at]))
-        return {name: sign * float(part[at]) for name, part in self.duty.parts.items()}
-
-    @lazy
-    def torque_rms_by(self) -> Mapping[str, Torque]:
-        r"""Parts of the RMS torque, N m: :math:`\frac{1}{t_c \tau_{rms}} \int \tau_i \tau dt`; they sum to it.
-
-        They share out the heat of the motor. A part that acts against the others is negative.
-        """
-        states, torque = self.duty.states, self.duty.torque
-        scale = states.cycle_time * self.duty.torque_rms
-        return {
-            name: states.integral(part * torque) / scale if scale else 0.0 for name, part in self.duty.parts.items()
-        }
-
-    @lazy
-    def torque_by_cause(self) -> Mapping[str, Numbers]:
-        """Torque of the motor by cause at each state, N m, by mechanics; causes that are rounding are left out."""
-        found: dict[str, Numbers] = {}
-        for name, part in self.duty.parts.items():
-            cause = cause_of(name)
-            found[cause] = found.get(cause, np.zeros_like(self.duty.torque)) + part
-        least = _LEAST_TORQUE * self.duty.torque_peak
-        return {cause: found[cause] for cause in CAUSES if cause in found and np.any(np.abs(found[cause]) > least)}
-
-    @lazy
-    def energy_lost_in(self) -> Mapping[str, Mapping[str, Energy]]:
-        """Energy lost in a cycle by element and mechanism, J; parts that are rounding are left out."""
-        least = _LEAST * self.duty.energy_drawn
-        found = {
-            name: {part: energy for part, energy in parts.items() if abs(energy) > least}
-            for name, parts in self.duty.energy_lost_in.items()
-        }
-        return {name: parts for name, parts in found.items() if parts}
-
-    @lazy
-    def smoothing(self) -> PositionSmoothing | SpeedSmoothing | None:
-        """The smoothing of a recorded motion; None for a motion in closed form."""
-        motion = self.motion
-        if not isinstance(motion, Trajectory):
+    def motor_check(self) -> MotorCheck | None:
+        """The duty against the motor of the case."""
+        if self.case.motor is None:
             return None
-        width = motion.chosen_half_width
-        raw = dataclasses.replace(self.duty, states=motion.smoothed_by(HALF_WIDTHS[0]).states())
-        kind = SpeedSmoothing if motion.position is None else PositionSmoothing
-        return kind(int(np.size(motion.time)), width, motion.noise, motion.acceleration_noise(width), raw.torque_rms)
+        return MotorCheck(self.duty, self.case.motor, self.rule.torque if self.by_rule else None)
 
-    @lazy
+    @part
+    def motor(self) -> Annotated[MotorUse | None, LEFT_OUT]:
+        """The cycle against the motor, where there is one."""
+        return None if self.motor_check is None else _motor_use(self.motor_check)
+
+    @part
+    def rules(self) -> Rules:
+        """The torque of the motor by mechanics and by the rule of catalogues."""
+        return Rules(from_attributes(Mechanics, self.duty), from_attributes(Catalogue, self.rule))
+
+    @part
     def phases(self) -> Sequence[PhaseNumbers]:
-        """What each phase of the motion asks of the motor, by mechanics."""
+        """What each phase of the motion asks of the motor."""
         duty, states = self.duty, self.duty.states
         found: list[PhaseNumbers] = []
         for number, name in enumerate(states.phases):
@@ -262,6 +443,49 @@ class DutyReport:
             )
         return found
 
+    @part
+    def cycle(self) -> Cycle:
+        """The states over time."""
+        duty, states = self.duty, self.duty.states
+        every = -(-len(states.time) // MOST_STATES)
+
+        def some(values: Any) -> list[float]:
+            return values[::every].tolist()
+
+        return Cycle(
+            every,
+            *map(some, (states.time, states.position, states.speed, states.acceleration)),
+            *map(some, (duty.axial_load, duty.motor_speed, duty.torque, duty.power)),
+            flooded_torque=some(duty.flooded.torque) if duty.starved else None,
+            torque_by={slug_of(cause): some(torque) for cause, torque in self.torque_by_cause.items()},
+        )
+
+    @part
+    def smoothing(self) -> Annotated[PositionSmoothing | SpeedSmoothing | None, LEFT_OUT]:
+        """How a recorded motion was smoothed."""
+        motion = self.motion
+        if not isinstance(motion, Trajectory):
+            return None
+        width = motion.chosen_half_width
+        raw = dataclasses.replace(self.duty, states=motion.smoothed_by(HALF_WIDTHS[0]).states())
+        kind = SpeedSmoothing if motion.position is None else PositionSmoothing
+        return kind(int(np.size(motion.time)), width, motion.noise, motion.acceleration_noise(width), raw.torque_rms)
+
+    @part
+    def operating_points(self) -> int:
+        """Operating points of the screw for which the model was evaluated."""
+        return self.duty.screw.points
+
+    @lazy
+    def torque_by_cause(self) -> Mapping[str, Numbers]:
+        """Torque of the motor by cause at each state, N m, by mechanics; causes that are rounding are left out."""
+        found: dict[str, Numbers] = {}
+        for name, torque in self.duty.parts.items():
+            cause = cause_of(name)
+            found[cause] = found.get(cause, np.zeros_like(self.duty.torque)) + torque
+        least = _LEAST_TORQUE * self.duty.torque_peak
+        return {cause: found[cause] for cause in CAUSES if cause in found and np.any(np.abs(found[cause]) > least)}
+
     @lazy
     def short_reversal(self) -> ShortReversal | None:
         """The shortest stroke, where the friction of the screw does not come back within it after a reversal.
@@ -271,21 +495,20 @@ class DutyReport:
         return None if isinstance(self.motion, Trajectory) else short_reversal(self.case, self.duty)
 
     @lazy
-    def largest_load(self) -> Force:
-        """Largest size of the axial load, N."""
-        return float(np.max(np.abs(self.duty.axial_load)))
-
-    @lazy
     def checks(self) -> Sequence[Check]:
         """Checks of the extremes, of the life over the cycle, and of the motor."""
         pressure = self.duty.screw.maximum_pressure
         largest = None if np.isnan(pressure).all() else float(np.nanmax(pressure))
-        return (*self._of_extremes(largest), *self._of_life, *(() if self.motor is None else self.motor.checks))
+        return (
+            *self._of_extremes(largest),
+            *self._of_life,
+            *(() if self.motor_check is None else self.motor_check.checks),
+        )
 
     @lazy
     def checks_by_loads(self) -> Sequence[Check]:
         """The checks that friction has no part in: they cost next to nothing."""
-        speed = () if self.motor is None else (self.motor.speed_check,)
+        speed = () if self.motor_check is None else (self.motor_check.speed_check,)
         return (
             *(check for check in self._of_extremes(None) if check.name != "contact_pressure"),
             *self._of_life,
@@ -301,8 +524,8 @@ class DutyReport:
     def _of_extremes(self, pressure: Pressure | None) -> Sequence[Check]:
         case, duty = self.case, self.duty
         nut = case.screw.nut
-        nut = nut.changed("preload", self.life.preload) if isinstance(nut, OversizeBallNut) else nut
-        mean = self.life.mean_load_of_both
+        nut = nut.changed("preload", self.cycle_life.preload) if isinstance(nut, OversizeBallNut) else nut
+        mean = self.cycle_life.mean_load_of_both
         found = checks(
             case.screw,
             axial_load=0.0 if math.isnan(mean) else min(mean, self.largest_load),
@@ -321,7 +544,7 @@ class DutyReport:
     @property
     def _of_life(self) -> Sequence[Check]:
         """Turns and time against the running time that the limits ask for."""
-        required, life = self.case.limits.running_time, self.life
+        required, life = self.case.limits.running_time, self.cycle_life
         if life.dynamic_load_rating is None:
             missing = "dynamic_load_rating"
             give = NOT_CHECKED.format(input=missing)
@@ -330,10 +553,9 @@ class DutyReport:
             idle = "not judged: nothing turns"
             return [Check.saying(idle, name, None, None, unit, None, None) for name, unit in _LIFE]
         found: list[Check] = []
-        numbers = CycleNumbers(self)  # of which the life asks for no friction
         for (name, unit), value, words in zip(
             _LIFE,
-            (float(numbers.life_revolutions), float(numbers.life_time)),
+            (float(self.life_revolutions), float(self.life_time)),
             (
                 "basic rating life L10 by the mean load over the cycle",
                 "time of so many cycles",
@@ -355,163 +577,32 @@ class DutyReport:
 _LIFE = (("life", "1"), ("running_time", "s"))
 
 
-class CycleNumbers(Answer):
-    """The numbers of a cycle, each declared and computed here, in the order in which they are shown.
-
-    Torques, and the life by the larger mean load alone, are by the rule of catalogues where the case asks for it;
-    energies are always by mechanics. A new number is one property: terminal, JSON, its schema, tables, report and page
-    have it from here.
-    """
-
-    def __init__(self, report: DutyReport) -> None:
-        self._report = report
-
-    @property
-    def _torques(self) -> VendorRule | Duty:
-        return self._report.rule if self._report.by_rule else self._report.duty
-
-    @property
-    def _cycles_a_day(self) -> float:
-        return DAY / self._report.duty.states.cycle_time
-
-    @property
-    def cycle_time(self) -> Annotated[Duration, Info("t_c", "time of a cycle")]:
-        """Time from the start of a cycle to that of the next."""
-        return self._report.duty.states.cycle_time
-
-    @property
-    def torque_peak(self) -> Annotated[Torque, Info(r"\tau_{max}", "largest torque of the motor")]:
-        """By the rule of catalogues where the case asks for it."""
-        return self._torques.torque_peak
-
-    @property
-    def torque_rms(self) -> Annotated[Torque, Info(r"\tau_{rms}", "RMS torque of the motor, rests included")]:
-        """By the rule of catalogues where the case asks for it."""
-        return self._torques.torque_rms
-
-    @property
-    def mean_speed(self) -> Annotated[AngularSpeed, Info("n_m", "mean speed of the screw over the cycle", "rpm")]:
-        """Mean of the size of the speed of the screw."""
-        return self._report.duty.mean_speed
-
-    @property
-    def largest_speed(self) -> Annotated[AngularSpeed, Info("n_max", "largest speed of the motor", "rpm")]:
-        """Largest size of the speed of the motor."""
-        return float(np.max(np.abs(self._report.duty.motor_speed)))
-
-    @property
-    def power_peak(self) -> Annotated[Power, Info("P_{max}", "largest power of the motor")]:
-        """Largest power that the motor gives; zero where it gives none."""
-        return max(float(np.max(self._report.duty.power)), 0.0)
-
-    @property
-    def power_returned_peak(self) -> Annotated[Power, Info("P_{min}", "largest power that drives the motor")]:
-        """Largest power that the motor takes back; zero where it takes none."""
-        return max(float(-np.min(self._report.duty.power)), 0.0)
-
-    @property
-    def energy_drawn(self) -> Annotated[Energy, Info("E_+", "energy that the motor gives in a cycle")]:
-        """Integral of the power of the motor where it is positive."""
-        return self._report.duty.energy_drawn
-
-    @property
-    def energy_returned(self) -> Annotated[Energy, Info("E_-", "energy that it takes back")]:
-        """Integral of the power of the motor where it is negative, as a positive number."""
-        return self._report.duty.energy_returned
-
-    @property
-    def energy_lost(self) -> Annotated[Energy, Info("E_f", "energy lost to friction in a cycle")]:
-        """All friction of the axis, over the cycle."""
-        return self._report.duty.energy_lost
-
-    @property
-    def energy_of_process(self) -> Annotated[Energy, Info("E_x", "work on the process in a cycle")]:
-        """Work of the axis against the force of the process."""
-        return self._report.duty.energy_of_process
-
-    @property
-    def energy_stored(self) -> Annotated[Energy, Info(r"\Delta E", "energy stored between start and end of the cycle")]:
-        """Not zero where a cycle does not end where it began."""
-        return self._report.duty.energy_stored
-
-    @property
-    def energy_per_day(
-        self,
-    ) -> Annotated[Energy, Info("E_d", "energy a day, if nothing is used that comes back", "kW h")]:
-        """Energy drawn, cycle after cycle."""
-        return self._cycles_a_day * self._report.duty.energy_drawn
-
-    @property
-    def energy_per_day_with_recovery(
-        self,
-    ) -> Annotated[Energy, Info("E_r", "energy a day, if all that comes back is used", "kW h")]:
-        """Energy drawn less that returned, cycle after cycle."""
-        return self._cycles_a_day * (self._report.duty.energy_drawn - self._report.duty.energy_returned)
-
-    @property
-    def mean_load(self) -> Annotated[Force, Info("F_m", "mean load of the more loaded flank or half")]:
-        """Cubic mean over the turns."""
-        return self._report.life.mean_load
-
-    @property
-    def mean_load_of_both(self) -> Annotated[Force, Info("F_a", "mean size of the axial load")]:
-        """Cubic mean over the turns, without regard to sign and preload."""
-        return self._report.life.mean_load_of_both
-
-    @property
-    def life_revolutions(self) -> Annotated[Ratio, Info("L", "basic rating life L10 in revolutions")]:
-        """By the larger mean load alone where the case asks for the rule of catalogues."""
-        life = self._report.life
-        return life.revolutions_of_the_worse if self._report.by_rule else life.revolutions
-
-    @property
-    def life_cycles(self) -> Annotated[Ratio, Info("N_c", "basic rating life L10 in cycles")]:
-        """NaN where nothing turns."""
-        turns = self._report.duty.revolutions
-        return self.life_revolutions / turns if turns else math.nan
-
-    @property
-    def life_time(self) -> Annotated[Duration, Info("L_h", "basic rating life L10h, cycle after cycle", "h")]:
-        """Cycles of the life, each as long as the cycle."""
-        return self.life_cycles * self.cycle_time
-
-    @property
-    def revolutions(self) -> Annotated[Ratio, Info("q", "turns of the screw in a cycle")]:
-        """Turns both ways."""
-        return self._report.duty.revolutions
-
-
-class BathNumbers(CycleNumbers):
-    """The numbers of the same cycle in a full bath of oil; those that friction changes count, :data:`OF_BATH`."""
-
-    def __init__(self, report: DutyReport) -> None:
-        super().__init__(dataclasses.replace(report, duty=report.duty.flooded))
-
-    @property
-    def screw_torque(self) -> Annotated[Torque, Info("M_S", "largest friction torque of the screw in the cycle")]:
-        """Largest friction torque of the screw, which its oil changes the most."""
-        return self._report.duty.screw_torque
-
-
-#: The numbers of a cycle, and those that are different in a full bath of oil.
-NUMBERS: Mapping[str, Quantity] = quantities_of(CycleNumbers)
-OF_BATH: Mapping[str, Quantity] = {
-    name: quantities_of(BathNumbers)[name]
-    for name in (
-        "torque_peak",
-        "torque_rms",
-        "power_peak",
-        "power_returned_peak",
-        "energy_drawn",
-        "energy_returned",
-        "energy_lost",
-        "screw_torque",
-    )
-}
-
-
 #: Energies that are zero in most cycles, and shown only where they are not.
 IF_ANY = ("energy_of_process", "energy_stored")
+
+
+def _motor_use(against: MotorCheck) -> MotorUse:
+    duty, motor, at, (condition, torque) = against.duty, against.motor, against.worst, against.worst_torque
+    largest = float(motor.largest_speed)
+    speeds = [0.0, *(speed for speed, _ in motor.curve if 0 < speed < largest), largest]
+    return from_attributes(
+        MotorUse,
+        against,
+        suffices=all(check.holds is not False for check in against.checks),
+        utilisation=float(against.utilisation[at]),
+        worst=WorstState(
+            duty.states.phases[int(duty.states.phase[at])], torque, condition or None, float(duty.motor_speed[at])
+        ),
+        curve=MotorCurve(speeds, motor.peak_at(np.array(speeds)).tolist(), float(motor.rated_torque)),
+    )
+
+
+def _by_slug(parts: Mapping[str, Any]) -> dict[str, float]:
+    return {slug_of(name): float(value) for name, value in parts.items()}
+
+
+def _extreme(end: Any, values: Any) -> float:
+    return float(end(values)) if values.size else float("nan")
 
 
 def planned(case: Case) -> DutyReport:
@@ -561,9 +652,9 @@ def duty(case: Case, *, recorded: bool = False) -> DutyReport:
         report.torque_peak_by,
         report.torque_rms_by,
         report.energy_lost_in,
-        report.full_bath,
+        report.bath.numbers,
     )
-    _ = (report.life.revolutions, report.smoothing, report.rule.torque_rms, report.rule.torque_peak)
+    _ = (report.cycle_life.revolutions, report.smoothing, report.rule.torque_rms, report.rule.torque_peak)
     return report
 
 

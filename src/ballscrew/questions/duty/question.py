@@ -48,10 +48,10 @@ def _prepare(request: Request) -> Work:
 
 
 def _response() -> Any:
-    from ballscrew.questions.duty.answer import DutyResults
+    from ballscrew.questions.duty.compute import DutyReport
     from ballscrew.questions.shared.declared import response
 
-    return response(DutyResults, "Duty", judged=True)
+    return response(DutyReport, "Duty", judged=True)
 
 
 QUESTION = Question(

@@ -41,7 +41,8 @@ from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction.starvation import FULL_BATH
-from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, DutyReport, PhaseNumbers, cause_of
+from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, DutyReport, cause_of, words_of
+from ballscrew.questions.duty.parts import PhaseNumbers
 from ballscrew.questions.duty.verdicts import verdicts, warnings
 from ballscrew.questions.shared.check_lines import check_table
 from ballscrew.questions.shared.declared import parts_of
@@ -197,16 +198,16 @@ def _parts(report: DutyReport) -> Table:
     total = duty.torque_rms
     columns = [
         {name: 0.0 if abs(value) <= _LEAST * largest else value for name, value in values.items()}
-        for values in (report.torque_peak_by, report.torque_rms_by, duty.energy_by)
+        for values in (report.torque_peak_by, report.torque_rms_by, report.energy_by)
         for largest in [max(map(abs, values.values()), default=0.0)]
     ]
 
     def row(name: str, *values: float, bar: bool = True) -> list[Cell]:
         cells = [Number(value, q, 3) for value, q in zip(values, (_TORQUE, _TORQUE, _ENERGY), strict=True)]
-        return [name, *cells, Share(values[1] / total, bar=bar) if total else None]
+        return [words_of(name), *cells, Share(values[1] / total, bar=bar) if total else None]
 
-    rows = [row(name, *values) for name in duty.energy_by if any(values := [column[name] for column in columns])]
-    sums = (sum(report.torque_peak_by.values()), total, sum(duty.energy_by.values()))
+    rows = [row(name, *values) for name in report.energy_by if any(values := [column[name] for column in columns])]
+    sums = (sum(report.torque_peak_by.values()), total, sum(report.energy_by.values()))
     headings = ("", "at the peak", "of the RMS", "energy", "share")
     return Table(
         "torque",
@@ -219,7 +220,7 @@ def _parts(report: DutyReport) -> Table:
 
 def _heat(report: DutyReport) -> Iterator[Block]:
     """Mean heat of each element over the cycle, and the mechanisms that make most of it."""
-    heat, time = report.duty.heat, report.duty.states.cycle_time
+    heat, time = report.heat_by_element, report.duty.states.cycle_time
     total = sum(heat.values())
     if not total > 0:
         yield Lines([Line("no heat: nothing is lost to friction")], detail=True)
@@ -227,13 +228,15 @@ def _heat(report: DutyReport) -> Iterator[Block]:
     rows: list[list[Cell]] = []
     for name, parts in report.energy_lost_in.items():
         largest = sorted(parts.items(), key=lambda part: -part[1])[:_MECHANISMS]
-        causes = ", ".join(f"{part} {units.shown(energy / time, _POWER, 3)}" for part, energy in largest)
-        rows.append([name, Number(heat[name], _POWER, 3), Share(heat[name] / total, bar=False), causes])
+        causes = ", ".join(f"{words_of(part)} {units.shown(energy / time, _POWER, 3)}" for part, energy in largest)
+        rows.append([words_of(name), Number(heat[name], _POWER, 3), Share(heat[name] / total, bar=False), causes])
     rows.append(["sum", Number(total, _POWER, 3), Share(1.0, bar=False), ""])
     headings = ("", "mean", "share", "most of it by")
     yield Table("elements", "Heat by element", headings, rows, detail=True)
     lost = [
-        (element, part, energy) for element, parts in report.energy_lost_in.items() for part, energy in parts.items()
+        (words_of(element), words_of(part), energy)
+        for element, parts in report.energy_lost_in.items()
+        for part, energy in parts.items()
     ]
     elements, mechanisms, energies = zip(*lost, strict=True) if lost else ((), (), ())
     yield Columns(
@@ -275,7 +278,7 @@ def _life(report: DutyReport) -> Iterator[Block]:
     source = f"dynamic load rating {'–' if rating is None else units.shown(rating, _FORCE)}, {report.rating_source}"
     side = "the half" if life.preload else "the flank"
     rows: list[list[Cell]] = [
-        *([f"mean load of {side} {name}", Number(load, _FORCE)] for name, load in life.mean_loads.items()),
+        *([f"mean load of {side} {words_of(name)}", Number(load, _FORCE)] for name, load in life.mean_loads.items()),
         ["turns of both together", Number(life.revolutions, _TURNS)],
         ["turns by the larger mean load alone, as THK computes", Number(life.revolutions_of_the_worse, _TURNS)],
     ]
@@ -326,7 +329,7 @@ def _charts(report: DutyReport) -> Iterator[Block]:
             Curve("", states.time, duty.power),
         ],
     )
-    yield _bars("energy lost in a cycle", _ENERGY, duty.energy_lost_by)
+    yield _bars("energy lost in a cycle", _ENERGY, report.energy_lost_by)
 
 
 def _cloud(report: DutyReport) -> Iterator[Curve]:
@@ -337,8 +340,8 @@ def _cloud(report: DutyReport) -> Iterator[Curve]:
     yield Curve("cycle", speed, duty.torque[some], style="dots")
     if duty.starved:
         yield Curve(FULL_BATH, speed, duty.flooded.torque[some], "blue", "circles")
-    if report.motor is not None:
-        motor = report.motor.motor
+    if report.motor_check is not None:
+        motor = report.motor_check.motor
         along = np.linspace(-float(motor.largest_speed), float(motor.largest_speed), _CURVE_POINTS)
         peak, rated = motor.peak_at(along), np.full_like(along, float(motor.rated_torque))
         for sign, peak_name, rated_name in ((1, "peak", "rated"), (-1, "", "")):
@@ -349,7 +352,7 @@ def _cloud(report: DutyReport) -> Iterator[Curve]:
 def _bars(title: str, quantity: Quantity, parts: Mapping[str, float]) -> Bars:
     """Parts from the largest down; parts that are rounding are left out."""
     least = _LEAST * max(map(abs, parts.values()), default=0.0)
-    shown = sorted(((n, v) for n, v in parts.items() if abs(v) > least), key=lambda part: -abs(part[1]))
+    shown = sorted(((words_of(n), v) for n, v in parts.items() if abs(v) > least), key=lambda part: -abs(part[1]))
     bars = [Bar(name, [("", value, _COLOURS[cause_of(name)])]) for name, value in shown]
     return Bars(title, quantity, bars, detail=True)
 

@@ -41,11 +41,13 @@ def verdicts(report: DutyReport) -> list[Record]:
 
 def starved(report: DutyReport) -> list[Record]:
     """What the motor has to give, and what is lost, as the inlet is given and in a full bath of oil."""
-    duty, full = report.duty, report.full_bath
+    duty = report.duty
     if not duty.starved:
         return []
     given = {"torque_peak": duty.torque_peak, "screw_torque": duty.screw_torque, "energy_lost": duty.energy_lost}
-    numbers = [starvation.BothTorques(OF_BATH[name], value, full[name]) for name, value in given.items()]
+    numbers = [
+        starvation.BothTorques(OF_BATH[name], value, getattr(report.bath, name)) for name, value in given.items()
+    ]
     return starvation.records(numbers)
 
 
@@ -142,13 +144,13 @@ def _way(report: DutyReport) -> str:
 
 
 def _motor(report: DutyReport) -> list[Record]:
-    if report.motor is None:
+    if report.motor_check is None:
         return []
-    failed = [check for check in report.motor.checks if check.holds is False]
+    failed = [check for check in report.motor_check.checks if check.holds is False]
     names = ", ".join(check.name.removeprefix("motor_").replace("_", " ") for check in failed)
     message = f"the motor does not suffice: {names}" if failed else "the motor suffices"
-    if starvation.FULL_BATH in report.motor.torques:
-        message = f"{message}; judged by the larger torque: {_conditions(report.motor)}"
+    if starvation.FULL_BATH in report.motor_check.torques:
+        message = f"{message}; judged by the larger torque: {_conditions(report.motor_check)}"
     severity: Severity = "error" if failed else "info"
     return [Record(text=message, id="verdict.motor", subject="motor", severity=severity, holds=not failed)]
 
@@ -339,7 +341,7 @@ def _check(report: DutyReport, name: str) -> Check | None:
 
 def _beyond_motor(report: DutyReport) -> list[Record]:
     """The state that asks for the most, where the curve of the motor does not reach it."""
-    against = report.motor
+    against = report.motor_check
     if against is None or against.utilisation[against.worst] <= 1:
         return []
     duty, motor, at = report.duty, against.motor, against.worst

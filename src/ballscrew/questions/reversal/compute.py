@@ -6,7 +6,7 @@ import dataclasses
 import functools
 import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,17 @@ from numpy.typing import NDArray
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
-from ballscrew.basis.quantities import Angle, Info, Length, Quantity, Ratio, RotationalDamping, quantities_of
+from ballscrew.basis.quantities import (
+    Angle,
+    Info,
+    Length,
+    Quantity,
+    Ratio,
+    RotationalDamping,
+    Torque,
+    Unit,
+    quantities_of,
+)
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.sweeps.reversal import QUANTITIES
@@ -31,6 +41,8 @@ from ballscrew.physics.moving_balls.friction_states import (
     fit_slip_elements,
 )
 from ballscrew.questions.reversal.options import ReversalOptions
+from ballscrew.questions.shared.declared import from_attributes
+from ballscrew.questions.shared.envelope import envelope
 
 #: Shares of the swing whose places are told.
 SHARES = (0.5, 0.63, 0.9, 0.98)
@@ -68,19 +80,20 @@ class ReversalReport:
     reversal: moving_balls.Reversal
     curve: WindingUp
     #: For the first 0.02° alone; None where the curve has too few angles there.
-    first: DahlFit | None
-    tracking: DahlFit
+    dahl_first: DahlFit | None
+    #: With the least squares over the travel.
+    dahl: DahlFit
     lugre: LuGreFit
     #: With two, three and four elements, as far as they are of use.
-    elements: Sequence[SlipElementsFit]
+    slip_elements: Sequence[SlipElementsFit]
 
     @functools.cached_property
-    def places(self) -> Sequence[Place]:
+    def swing(self) -> Sequence[Place]:
         """Where the shares of the swing are back, of all friction."""
         return self._places(np.asarray(self.reversal.screw_torque, dtype=float), float(self.reversal.steady_torque))
 
     @functools.cached_property
-    def places_by_mechanism(self) -> Mapping[str, Sequence[Place]]:
+    def swing_by_mechanism(self) -> Mapping[str, Sequence[Place]]:
         """The same of each part that there is; what follows the direction at once has zeros.
 
         The swing of a part ends where its curve ends, once all friction is back: the bristles may share the slip in
@@ -88,7 +101,7 @@ class ReversalReport:
         """
         steady = {name: float(value) for name, value in self.reversal.steady_contributions.items()}
         whole = abs(float(self.reversal.steady_torque))
-        back = math.isfinite(self.places[-1].screw_angle)
+        back = math.isfinite(self.swing[-1].screw_angle)
         return {
             name: self._places(np.asarray(values, dtype=float), float(values[-1]) if back else steady[name])
             for name, values in self.reversal.contributions.items()
@@ -108,7 +121,7 @@ class ReversalReport:
     @property
     def verdicts(self) -> list[Record]:
         """Where most of the friction is back, that one stiffness cannot hold it, and how many elements can."""
-        place = next(one for one in self.places if one.share == MOST)
+        place = next(one for one in self.swing if one.share == MOST)
         share = units.percent(MOST)
         start = "from rest" if self.reversal.from_rest else "after a reversal"
         if math.isfinite(place.screw_angle):
@@ -118,21 +131,21 @@ class ReversalReport:
             end = units.shown(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
             text = f"{start} less than {share} of the friction is back within {end}"
         found = [Record(text=text, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
-        two = self.elements[0]
-        if self.first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
-            first = units.shown(self.first.model.presliding_stiffness, STIFFNESS, 3)
-            tracking = units.shown(self.tracking.model.presliding_stiffness, STIFFNESS, 3)
+        two = self.slip_elements[0]
+        if self.dahl_first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
+            first = units.shown(self.dahl_first.model.presliding_stiffness, STIFFNESS, 3)
+            tracking = units.shown(self.dahl.model.presliding_stiffness, STIFFNESS, 3)
             text = (
                 f"one stiffness of Dahl or LuGre is {first} for the first 0.02° and {tracking} for tracking over more "
                 "than 0.1 mm; with the latter the torque is off by up to "
-                f"{units.percent(self.tracking.error.largest)} of the steady one"
+                f"{units.percent(self.dahl.error.largest)} of the steady one"
             )
             found.append(
                 Record(
                     text=text,
                     id="reversal.one_stiffness",
                     subject="presliding_stiffness",
-                    value=self.tracking.error.largest,
+                    value=self.dahl.error.largest,
                 )
             )
         off = units.percent(two.error.largest)
@@ -168,7 +181,7 @@ class ReversalReport:
                     limit=BRISTLES_OFF,
                 )
             )
-        ratios = [loop.work_ratio for fit in self.elements for loop in fit.loops]
+        ratios = [loop.work_ratio for fit in self.slip_elements for loop in fit.loops]
         if ratios:
             loops = (self.curve.loops[0], self.curve.loops[-1])
             shortest, longest = (units.shown(loop.stroke / 2, ANGLE, 3) for loop in loops)
@@ -177,7 +190,7 @@ class ReversalReport:
                 f"{units.percent(min(ratios))} to {units.percent(max(ratios))} of that of the balls, whose contacts "
                 "have no memory of turning points: no elements have both the curve and the work of all strokes"
             )
-            worst = max(fit.work_error for fit in self.elements)
+            worst = max(fit.work_error for fit in self.slip_elements)
             found.append(
                 Record(text=text, id="reversal.work_of_elements", subject="slip_elements", severity="info", value=worst)
             )
@@ -229,15 +242,15 @@ def of(
         case=case,
         reversal=found,
         curve=curve,
-        first=fit_dahl_first(curve),
-        tracking=fit_dahl(curve),
+        dahl_first=fit_dahl_first(curve),
+        dahl=fit_dahl(curve),
         lugre=fit_lugre(
             curve,
             screw_speed=float(case.operation.screw_speed),
             viscous_slope=viscous_slope(case),
             moment_of_inertia=options.inertia,
         ),
-        elements=tuple({len(fit.elements): fit for fit in fits}.values()),
+        slip_elements=tuple({len(fit.elements): fit for fit in fits}.values()),
     )
 
 
@@ -270,3 +283,42 @@ def _reached(
         return 0.0, 0.0
     here = slice(int(there[0]) - 1, int(there[0]) + 1)
     return float(np.interp(share, shares[here], angle[here])), float(np.interp(share, shares[here], travel[here]))
+
+
+_CURVE = quantities_of(WindingUp)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ReversalResults:
+    """Friction over the angle of the screw after a reversal or from rest, and the models fitted to it."""
+
+    #: True for a curve from rest.
+    from_rest: bool
+    screw_angle: Annotated[Sequence[float], Unit("rad"), ANGLE.info]
+    travel: Annotated[Sequence[float], Unit("m"), TRAVEL.info]
+    screw_torque: Annotated[
+        Sequence[float], Unit("N m"), Info("M", "friction torque on the screw, against its new direction")
+    ]
+    contributions: Annotated[Mapping[str, Sequence[float]], Unit("N m"), Info("", "its parts by mechanism")]
+    steady_torque: Annotated[Torque, TORQUE.info]
+    steady_contributions: Annotated[Mapping[str, float], Unit("N m"), Info("", "its parts by mechanism")]
+    coulomb_torque: Annotated[Torque, _CURVE["coulomb_torque"].info]
+    at_once: Annotated[Torque, _CURVE["at_once"].info]
+    #: Where 50, 63, 90 and 98 % of the swing are back.
+    swing: Sequence[Place]
+    #: The same by mechanism, of those that wind up.
+    swing_by_mechanism: Mapping[str, Sequence[Place]]
+    #: The model of Dahl for the first 0.02° alone; null where the curve has too few angles there.
+    dahl_first: DahlFit | None
+    #: The model of Dahl with the least squares over the travel.
+    dahl: DahlFit
+    #: The model LuGre with the same stiffness.
+    lugre: LuGreFit
+    #: Two, three and four Maxwell-slip elements, as far as they are of use.
+    slip_elements: Sequence[SlipElementsFit]
+
+
+def document(report: ReversalReport) -> dict[str, Any]:
+    """The document of a reversal, in SI."""
+    results = from_attributes(ReversalResults, report, report.reversal, report.curve)
+    return envelope(report.case, results, warnings=report.warnings, verdicts=report.verdicts)

@@ -11,20 +11,19 @@ from ballscrew.questions.shared.question import Answer, Endpoint, Question, Requ
 
 def _prepare(request: Request) -> Work:
     from ballscrew.questions.reversal import compute
-    from ballscrew.questions.reversal.answer import document
     from ballscrew.questions.reversal.sheet import sheet
 
     options, case = request.options(ReversalOptions), request.load()
 
     def answer(_: object) -> Answer:
         report = compute.reversal(case, options)
-        return Answer(sheet(report), lambda: document(report), f"{len(report.reversal.screw_angle)} angles")
+        return Answer(sheet(report), lambda: compute.document(report), f"{len(report.reversal.screw_angle)} angles")
 
     return Work(answer, "reversal")
 
 
 def _response() -> Any:
-    from ballscrew.questions.reversal.answer import ReversalResults
+    from ballscrew.questions.reversal.compute import ReversalResults
     from ballscrew.questions.shared.declared import response
 
     return response(ReversalResults, "Reversal")

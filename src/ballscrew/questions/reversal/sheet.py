@@ -73,11 +73,11 @@ def _title(report: ReversalReport) -> str:
 def _mechanisms(report: ReversalReport) -> Table:
     """Each part of the steady torque, and where most of it is back."""
     rows: list[Sequence[Cell]] = []
-    for name, places in report.places_by_mechanism.items():
+    for name, places in report.swing_by_mechanism.items():
         steady = float(report.reversal.steady_contributions[name])
         rows.append([PARTS.get(name, name), Number(steady, TORQUE, _DIGITS), *_where(places)])
     steady = float(report.reversal.steady_torque)
-    rows.append(["all friction", Number(steady, TORQUE, _DIGITS), *_where(report.places)])
+    rows.append(["all friction", Number(steady, TORQUE, _DIGITS), *_where(report.swing)])
     return Table("parts", "part", ("", "steady torque", f"{MOST:.0%} back at", "travel"), rows)
 
 
@@ -94,22 +94,22 @@ def _swing(report: ReversalReport) -> Table:
     steady = float(report.reversal.steady_torque)
     start = 0.0 if report.reversal.from_rest else -steady
     rows: list[Sequence[Cell]] = [
-        ["torque", *(Number(start + place.share * (steady - start), TORQUE, _DIGITS) for place in report.places)],
-        ["angle of the screw", *(Number(place.screw_angle, ANGLE, _DIGITS) for place in report.places)],
-        ["travel of the nut", *(Number(place.travel, TRAVEL, _DIGITS) for place in report.places)],
+        ["torque", *(Number(start + place.share * (steady - start), TORQUE, _DIGITS) for place in report.swing)],
+        ["angle of the screw", *(Number(place.screw_angle, ANGLE, _DIGITS) for place in report.swing)],
+        ["travel of the nut", *(Number(place.travel, TRAVEL, _DIGITS) for place in report.swing)],
     ]
-    return Table("swing", "share of the swing", ("", *(f"{place.share:.0%}" for place in report.places)), rows)
+    return Table("swing", "share of the swing", ("", *(f"{place.share:.0%}" for place in report.swing)), rows)
 
 
 def _models(report: ReversalReport) -> Table:
     """Dahl in both ranges, and LuGre."""
     lugre, coulomb = report.lugre.model, Number(report.curve.coulomb_torque, TORQUE, _DIGITS)
-    stiffness = Number(report.tracking.model.presliding_stiffness, STIFFNESS, _DIGITS)
+    stiffness = Number(report.dahl.model.presliding_stiffness, STIFFNESS, _DIGITS)
     rows: list[Sequence[Cell]] = []
-    if report.first is not None:
-        first = Number(report.first.model.presliding_stiffness, STIFFNESS, _DIGITS)
-        rows.append(["Dahl, first 0.02°", first, coulomb, "", "", *_errors(report.first.error)])
-    rows.append(["Dahl, tracking", stiffness, coulomb, "", "", *_errors(report.tracking.error)])
+    if report.dahl_first is not None:
+        first = Number(report.dahl_first.model.presliding_stiffness, STIFFNESS, _DIGITS)
+        rows.append(["Dahl, first 0.02°", first, coulomb, "", "", *_errors(report.dahl_first.error)])
+    rows.append(["Dahl, tracking", stiffness, coulomb, "", "", *_errors(report.dahl.error)])
     damping = Number(lugre.micro_damping, _LUGRE["micro_damping"], _DIGITS) if lugre.micro_damping else "none chosen"
     viscous = Number(lugre.viscous_slope, _LUGRE["viscous_slope"], _DIGITS)
     rows.append(["LuGre, tracking", stiffness, coulomb, damping, viscous, *_errors(report.lugre.error)])
@@ -124,7 +124,7 @@ def _models(report: ReversalReport) -> Table:
 def _elements(report: ReversalReport) -> Table:
     """The Maxwell-slip elements, by their number."""
     rows: list[Sequence[Cell]] = []
-    for fit in report.elements:
+    for fit in report.slip_elements:
         work = Share(fit.work_error, bar=False) if fit.loops else None
         for number, element in enumerate(fit.elements):
             names = ("stiffness", "slip_torque", "slip_angle")
@@ -168,12 +168,12 @@ def _fitted(report: ReversalReport) -> Iterator[Curve]:
     shown, curve = _shown(report), report.curve
     angle = np.asarray(curve.screw_angle, dtype=float)[shown]
     yield Curve("computed", angle, np.asarray(report.reversal.screw_torque)[shown])
-    if report.first is not None:
-        first = report.first.model.torque(angle, curve.initial_torque)
+    if report.dahl_first is not None:
+        first = report.dahl_first.model.torque(angle, curve.initial_torque)
         yield Curve("Dahl, first 0.02°", angle, first + curve.at_once, "orange", "dashed")
-    tracking = report.tracking.model.torque(angle, curve.initial_torque)
+    tracking = report.dahl.model.torque(angle, curve.initial_torque)
     yield Curve("Dahl and LuGre, tracking", angle, tracking + curve.at_once, "red", "dashed")
-    fewest_and_most = {len(fit.elements): fit for fit in (report.elements[0], report.elements[-1])}
+    fewest_and_most = {len(fit.elements): fit for fit in (report.slip_elements[0], report.slip_elements[-1])}
     colours: Sequence[Colour] = ("green", "sky")
     for (count, fit), colour in zip(fewest_and_most.items(), colours, strict=False):
         torque = of_elements(fit.elements, curve)[shown] + curve.at_once

@@ -14,12 +14,12 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.basis.quantities import Info, Quantity, Torque, quantities_of
+from ballscrew.basis.quantities import Info, Quantity, Torque, Unit, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
-from ballscrew.physics.components.chain_force import ChainBallForce
-from ballscrew.physics.components.nut_losses import ReturnBraking
 from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.laws.ball_chain import ChainBallForce
+from ballscrew.physics.laws.nut_losses import ReturnBraking
 from ballscrew.physics.moving_balls.ripple import (
     Defect,
     FullCircuit,
@@ -31,6 +31,8 @@ from ballscrew.physics.moving_balls.ripple import (
     torque_ripple,
 )
 from ballscrew.questions.ripple.options import RippleOptions
+from ballscrew.questions.shared.declared import from_attributes, parts_like
+from ballscrew.questions.shared.envelope import envelope
 from ballscrew.questions.shared.options import options_of
 
 #: Faults that "all" stands for; a nut without preload has none to lose.
@@ -253,3 +255,65 @@ _READERS: Mapping[str, Callable[[str, str], Defect | Fault]] = {
     "preload": _number(PreloadLeft, "write preload=0.35"),
     "groove": _number(NutGroove, "write groove=3"),
 }
+
+
+@dataclasses.dataclass(frozen=True)
+class FaultAsked:
+    """A fault that is asked for."""
+
+    #: The fault as it was written.
+    fault: str
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class FaultResult(
+    parts_like(Ripple, "mean", "peak_to_peak", "deviation", "relative", "share", "orders"),
+    FaultAsked,
+):
+    """The torque with a fault."""
+
+
+class CurveResult(NamedTuple):
+    """A curve of the torque."""
+
+    #: Turns of the screw, or orders.
+    x: Annotated[Sequence[float], Unit("1")]
+    #: The friction torque, or its amplitude.
+    y: Annotated[Sequence[float], Unit("N m")]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class RippleResults(
+    parts_like(Ripple, "mean", "peak_to_peak", "deviation", "relative", "parts", "displacement", "share", "orders")
+):
+    """The friction torque of the balls of a nut over the angle of the screw."""
+
+    parts: Annotated[Mapping[str, float], Unit("N m"), Info("", "mean torques by cause")]
+    #: The peak to peak of several nuts, where they are asked for.
+    range: Range | None
+    #: The torque with each fault that is asked for.
+    faults: Sequence[FaultResult]
+    #: Torque over the turns of the screw.
+    torque: CurveResult
+    #: Amplitude of the torque over the order.
+    spectrum: CurveResult
+
+
+def document(report: RippleReport) -> dict[str, Any]:
+    """Inputs, torque over the angle, orders, faults, verdicts and provenance."""
+    ripple = report.ripple
+    results = from_attributes(
+        RippleResults,
+        ripple,
+        range=report.range,
+        faults=[from_attributes(FaultResult, ripple, fault=name) for name, ripple in report.faults.items()],
+        torque=CurveResult((ripple.angle / (2 * math.pi)).tolist(), ripple.torque.tolist()),
+        spectrum=CurveResult(*(values.tolist() for values in ripple.spectrum)),
+    )
+    return envelope(
+        report.case,
+        results,
+        assumed=report.assumed,
+        warnings=report.case.implausible(),
+        verdicts=report.verdicts,
+    )

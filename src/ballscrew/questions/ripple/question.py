@@ -11,20 +11,19 @@ from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question
 
 def _prepare(request: Request) -> Work:
     from ballscrew.questions.ripple import compute
-    from ballscrew.questions.ripple.answer import document
     from ballscrew.questions.ripple.sheet import sheet
 
     options, case = request.options(RippleOptions), request.load()
 
     def answer(done: Done) -> Answer:
         report = compute.ripple_of(case, options, done)
-        return Answer(sheet(report), lambda: document(report), f"{len(report.ripple.angle)} angles")
+        return Answer(sheet(report), lambda: compute.document(report), f"{len(report.ripple.angle)} angles")
 
     return Work(answer, "ripple")
 
 
 def _response() -> Any:
-    from ballscrew.questions.ripple.answer import RippleResults
+    from ballscrew.questions.ripple.compute import RippleResults
     from ballscrew.questions.shared.answer_parts import Assumed
     from ballscrew.questions.shared.declared import response
 

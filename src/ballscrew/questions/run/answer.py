@@ -10,9 +10,9 @@ from ballscrew.basis.quantities import Info, Ratio, Torque, fields_of, quantitie
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.makers_rules import BY_RULE, by_rules
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
-from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
+from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.sizing.rules import DRAG_RULES, rule_of
 from ballscrew.questions.run.compute import OF_ONE_BALL, Run
 from ballscrew.questions.run.nut_loads import nut_loads

@@ -19,14 +19,14 @@ from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
-from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
 from ballscrew.physics.friction.touching import most_loaded_ball, touched
 from ballscrew.physics.friction.verdicts import PRELOAD_ABOVE_RATING, PRELOAD_LOST, VERDICTS
+from ballscrew.physics.laws.contact import RaceState
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.rigidity import AxialRigidity, rigidity_iso3408
 from ballscrew.physics.solvers.load_distribution import preload_of
 from ballscrew.questions.run import makers

@@ -18,8 +18,7 @@ from ballscrew.physics.sizing.checks import failing, judged, verdict_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.duty import verdicts as duty_verdicts
-from ballscrew.questions.duty.answer import FullBath
-from ballscrew.questions.duty.compute import NUMBERS, DutyReport
+from ballscrew.questions.duty.compute import NUMBERS, DutyReport, FullBath
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
@@ -182,7 +181,7 @@ def of_motion(duty: DutyReport) -> OfMotion:
     """The cycle of a candidate."""
     return OfMotion(
         CycleOfNeed(**duty.numbers),
-        None if duty.by_rule else FullBath(**duty.full_bath),
+        duty.full_bath,
         MotorTorque(**duty.motor_torque),
         from_attributes(BrakeOfNeed, duty.brake),
     )
@@ -199,8 +198,11 @@ _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 _LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "holds", "verdict")
 
 
-def document(found: Selection) -> dict[str, Any]:
-    """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``."""
+def document(found: Selection, listed: Sequence[Ranked] | None = None) -> dict[str, Any]:
+    """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``.
+
+    Candidates are those ``listed``, or all of them.
+    """
     first = next((each.candidate for each in found.ranked if each.candidate.complete), None)
     known: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
     known.pop("loads", None)
@@ -211,7 +213,9 @@ def document(found: Selection) -> dict[str, Any]:
         "best": None if best is None else best.variant.label,
         "holding": len(found.holding),
         "ruled_out": sum(not each.candidate.complete for each in found.ranked),
-        "candidates": [candidate_document(each, found.need, found.model) for each in found.ranked],
+        "candidates": [
+            candidate_document(each, found.need, found.model) for each in (found.ranked if listed is None else listed)
+        ],
         "notes": list(found.notes),
         "warnings": documents(next((each.candidate.starved for each in found.ranked if each.candidate.starved), [])),
         "units": {

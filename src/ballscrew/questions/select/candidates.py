@@ -288,7 +288,7 @@ def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
     if need.moves:
         report = duties.planned(case)
         balls, own = report.balls_under_largest_load, report.checks_by_loads
-        time, load = float(duties.CycleNumbers(report).life_time), report.largest_load
+        time, load = float(report.life_time), report.largest_load
     else:
         load = float(case.operation.axial_load)
         state = OperatingState(0.0, float(case.operation.screw_speed), None)
@@ -441,7 +441,7 @@ def _of_point(found: Checked, *, starves: bool) -> dict[str, float]:
 
 
 def _of_cycle(report: DutyReport, *, starves: bool) -> dict[str, float]:
-    numbers, full = report.numbers, report.full_bath
+    numbers, full = report.numbers, report.bath.numbers
     lost = max(numbers["energy_lost"], full["energy_lost"]) if starves else numbers["energy_lost"]
     return {
         "loss": lost / numbers["cycle_time"],

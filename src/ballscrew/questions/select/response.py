@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from pydantic import Field
 
 from ballscrew.questions.select.answer import OfMotion, OneCandidate, OneObjective
-from ballscrew.questions.select.compute import Plan as PlanOfNeed
-from ballscrew.questions.shared.answer_parts import Open, Provenance, Record, Tables
+from ballscrew.questions.shared.answer_parts import Open, Provenance, Record, Shown, Tables
 from ballscrew.questions.shared.declared import schema, with_answers
-
-Plan: Any = schema(PlanOfNeed)
 
 
 class OfCheck(Open):
@@ -29,7 +25,7 @@ class Candidate(schema(OneCandidate), schema(OfMotion, optional=True), OfCheck):
     """A row with a nut, a preload and an oil: the document of its check, with its rank."""
 
 
-class Select(with_answers(objectives=Sequence[OneObjective])):
+class Select(with_answers(objectives=Sequence[OneObjective]), Shown):
     """Candidates for a need, the best first."""
 
     need: Tables

@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
-from typing import cast
+from collections.abc import Callable, Mapping, Sequence
+from typing import Annotated, Any, NamedTuple, cast
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.uncertain_inputs import NOTHING_GIVEN, Uncertain, all_of
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty import sensitivity as analysis
-from ballscrew.engine.uncertainty.sensitivity import ANOTHER_METHOD, Method, Sensitivity
+from ballscrew.engine.uncertainty.sensitivity import ANOTHER_METHOD, HALF, METHODS, Method, Sensitivity
+from ballscrew.engine.uncertainty.sobol import Estimate
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.components.screw import MATERIALS
 from ballscrew.questions.sensitivity.options import SensitivityOptions
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, OneOf, from_attributes
+from ballscrew.questions.shared.envelope import envelope
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -70,3 +75,149 @@ def _of_command_line(fault: Fault) -> Fault:
     where = f"--{name}" if section == "sensitivity" and "." not in name else fault.where
     remedy = "add --method sobol or --method morris" if fault.remedy == ANOTHER_METHOD else fault.remedy
     return dataclasses.replace(fault, where=where, remedy=remedy)
+
+
+CORRELATED = "the numbers of the calibration vary one by one, too, though the fit left them correlated"
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class SensitiveInput:
+    """An uncertain input, and what the method says of it: the measures of that method, and no others."""
+
+    #: As in sweeps.
+    name: str
+    #: Its kind and its parameters, SI.
+    distribution: Mapping[str, Any]
+    #: True where the case gives it; otherwise it is taken as usual.
+    given: bool
+    #: Given, judgement, a key of the bibliography, or a calibration.
+    source: str
+    #: With sobol the share of the variance in which it has a part.
+    total: Annotated[Estimate | None, LEFT_OUT] = None
+    #: With sobol the share of the variance that it has by itself.
+    first_order: Annotated[Estimate | None, LEFT_OUT] = None
+    #: Change of the output by one standard deviation of the input.
+    effect: Annotated[Estimate | None, LEFT_OUT] = None
+    #: With morris the standard deviation of these changes.
+    effect_deviation: Annotated[Estimate | None, LEFT_OUT] = None
+    #: With local the share of the variance, were the slopes the same.
+    share: Annotated[Estimate | None, LEFT_OUT] = None
+    #: Share of the standard deviation that is left if it is known.
+    left_if_known: float
+
+
+class IfKnown(NamedTuple):
+    """Some inputs, and the share of the standard deviation that is left if they are known."""
+
+    inputs: Sequence[str]
+    left: float
+
+
+class Indices(NamedTuple):
+    """The inputs of an output, the one that matters most first."""
+
+    output: str
+    method: Annotated[str, OneOf(METHODS)]
+    #: Over all samples; with local the value at the medians of the inputs; SI.
+    mean: float
+    #: SI; null with morris.
+    standard_deviation: float
+    #: The inputs, the one that matters most first.
+    inputs: Sequence[SensitiveInput]
+    #: The largest inputs, one more each time.
+    knowing: Sequence[IfKnown]
+    #: The inputs to find out so that half is left; null where there are none.
+    to_halve: IfKnown | None
+    #: Of the intervals.
+    level: Annotated[float, FINITE]
+    samples: int
+    #: Samples without a number.
+    left_out: int
+    evaluations: int
+    seed: int
+
+
+def document(case: case_file.Case, report: SensitivityReport) -> dict[str, Any]:
+    """Inputs, indices, what to measure next, units and provenance."""
+    result = report.result
+    indices = from_attributes(
+        Indices,
+        result,
+        standard_deviation=result.deviation,
+        inputs=[_input(report, name) for name in result.inputs],
+        knowing=[IfKnown(*known) for known in result.explained_variance],
+        to_halve=None if result.to_halve is None else IfKnown(*result.to_halve),
+    )
+    return envelope(
+        case,
+        indices,
+        named="sensitivity",
+        units={
+            result.output: result.quantity.unit,
+            **{name: report.known[name][1].unit for name in result.inputs},
+        },
+        warnings=warnings(case, report),
+        verdicts=verdicts(report),
+    )
+
+
+def _input(report: SensitivityReport, name: str) -> SensitiveInput:
+    uncertain, kind = report.uncertain[name], type(report.uncertain[name].distribution)
+    return SensitiveInput(
+        name=name,
+        distribution={"kind": kind.__name__.lower(), **dataclasses.asdict(uncertain.distribution)},
+        given=uncertain.given,
+        source=uncertain.source,
+        **{measure: of_input[name] for measure, of_input in report.result.measures.items()},
+        left_if_known=report.result.left_if_known(name),
+    )
+
+
+def verdicts(report: SensitivityReport) -> list[Record]:
+    """The inputs to measure next in order to halve the band."""
+    result, meaning = report.result, report.result.quantity.info.meaning
+
+    def verdict(name: str, subject: str, message: str, value: float | None = None, holds: bool | None = None) -> Record:
+        limit = None if value is None else HALF
+        return Record(text=message, id=f"sensitivity.{name}", subject=subject, value=value, limit=limit, holds=holds)
+
+    if result.is_constant:
+        message = f"the {meaning} does not depend on any of these inputs"
+        return [verdict("constant", result.output, message)]
+    if result.method == "morris":
+        message = "screening ranks the inputs; what to find out next: --method sobol"
+        return [verdict("screening", result.output, message)]
+    if result.to_halve is None:
+        message = f"to know all of these inputs would not halve the band of the {meaning}"
+        return [verdict("not_halved", result.output, message, holds=False)]
+    inputs, left = result.to_halve
+    names = [report.describe(name) for name in inputs]
+    message = f"to halve the band of the {meaning}, find out: {', '.join(names)} (leaves {units.percent(left)})"
+    records = [verdict("to_halve", ",".join(inputs), message, left, True)]
+    if len(names) > 1:
+        alone = result.explained_variance[0].remaining
+        message = f"{names[0]} alone leaves {units.percent(alone)}"
+        records.append(verdict("first_input", inputs[0], message, alone, False))
+    return records
+
+
+def warnings(case: case_file.Case, report: SensitivityReport) -> list[Record]:
+    """Implausible inputs, samples without a number, and the correlation of a calibration, which is not sampled."""
+    records = case.implausible()
+    result = report.result
+    if result.left_out:
+        message = f"{units.fixed(result.left_out)} samples or trajectories are left out as they have no number"
+        records.append(
+            Record(
+                text=message,
+                id="sensitivity.left_out",
+                subject=result.output,
+                severity="warning",
+                holds=False,
+                value=float(result.left_out),
+                limit=0.0,
+            )
+        )
+    if case.calibration is not None:
+        records.append(Record(text=CORRELATED, id="sensitivity.correlated", subject="calibration", severity="warning"))
+    return records

@@ -11,20 +11,21 @@ from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question
 
 def _prepare(request: Request) -> Work:
     from ballscrew.questions.sensitivity import compute
-    from ballscrew.questions.sensitivity.answer import document
     from ballscrew.questions.sensitivity.sheet import sheet
 
     options, case = request.options(SensitivityOptions), request.load()
 
     def answer(done: Done) -> Answer:
         report = compute.sensitivity(case, options, done)
-        return Answer(sheet(case, report), lambda: document(case, report), f"{len(report.result.inputs)} inputs")
+        return Answer(
+            sheet(case, report), lambda: compute.document(case, report), f"{len(report.result.inputs)} inputs"
+        )
 
     return Work(answer, "sensitivity")
 
 
 def _response() -> Any:
-    from ballscrew.questions.sensitivity.answer import Indices
+    from ballscrew.questions.sensitivity.compute import Indices
     from ballscrew.questions.shared.declared import response
 
     return response(Indices, "Sensitivity", named="sensitivity")

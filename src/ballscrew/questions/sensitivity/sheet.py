@@ -30,8 +30,7 @@ from ballscrew.cases.case_files.uncertain_inputs import path_of
 from ballscrew.engine.uncertainty.sensitivity import HALF, MEASURES, Method, Sensitivity
 from ballscrew.engine.uncertainty.sobol import Estimate
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE
-from ballscrew.questions.sensitivity.answer import verdicts, warnings
-from ballscrew.questions.sensitivity.compute import SensitivityReport
+from ballscrew.questions.sensitivity.compute import SensitivityReport, verdicts, warnings
 
 #: Headings of what a method says of an input, and what they mean.
 _HEADINGS: Mapping[str, str] = {

@@ -1,6 +1,6 @@
 """Answers that are declared once: their document, its units and its schema follow from their annotations.
 
-An answer is a class: a dataclass, a named tuple, or a class whose public properties are annotated. Each part of it is a
+An answer is a class: a dataclass, a named tuple, or an :class:`Answer`, whose parts are properties. Each part is a
 number with a unit (``Annotated[Torque, Info(...)]``), a truth value, a text, another answer, or a sequence or a mapping
 of these. A mapping that is annotated as a whole (``Annotated[Mapping[str, float], Unit("N")]``) has one unit in the
 document of units, one of annotated numbers (``Mapping[str, Force]``) a unit for each key.
@@ -19,6 +19,7 @@ from typing import Annotated, Any, Literal, NamedTuple, TypeVar, Union, get_args
 
 import numpy as np
 
+from ballscrew.basis.arrays import lazy
 from ballscrew.basis.field_docs import comments_of
 from ballscrew.basis.output.sheet import Cells
 from ballscrew.basis.quantities import Info, Quantity, Unit, info_of, unit_of
@@ -143,7 +144,9 @@ def _is_union(annotation: Any) -> bool:
 def parts_of(cls: type) -> Mapping[str, Part]:
     """The parts of an answer by name: fields, then public properties, those of a base class first."""
     found: dict[str, Part] = {}
-    fields = [field.name for field in dataclasses.fields(cls)] if dataclasses.is_dataclass(cls) else []
+    has_parts = issubclass(cls, Answer)
+    kinds: Any = (part,) if has_parts else (property, functools.cached_property)
+    fields = [] if has_parts or not dataclasses.is_dataclass(cls) else [each.name for each in dataclasses.fields(cls)]
     names = set(getattr(cls, "_fields", fields))  # those of a named tuple, or of a dataclass
     if names:
         hints = get_type_hints(cls, include_extras=True)
@@ -151,7 +154,7 @@ def parts_of(cls: type) -> Mapping[str, Part]:
     for owner in reversed(cls.__mro__):
         for name, member in vars(owner).items():
             getter = member.fget if isinstance(member, property) else getattr(member, "func", None)
-            if name.startswith("_") or getter is None or not isinstance(member, property | functools.cached_property):
+            if name.startswith("_") or getter is None or not isinstance(member, kinds):
                 continue
             annotation = get_type_hints(getter, include_extras=True).get("return")
             found[name] = Part(name, annotation, (getter.__doc__ or "").partition(".")[0])
@@ -178,7 +181,11 @@ _is_answer: Callable[[type], bool] = functools.cache(is_answer)
 
 
 class Answer:
-    """An answer whose parts are annotated properties."""
+    """An answer whose parts are properties :class:`part`, whatever else it has."""
+
+
+class part(lazy[T]):
+    """A property that is a part of an answer, computed when it is first asked for."""
 
 
 def table_of(quantities: Mapping[str, Quantity], *, of: Any = float, at_times: Container[str] = ()) -> type[Any]:
@@ -217,9 +224,14 @@ def cells(answer: Any, name: str = "", quantity: Quantity | None = None) -> Cell
     return values
 
 
-def from_attributes(cls: type[T], value: object, **others: Any) -> T:
-    """An answer whose parts are the attributes of a value by the same names, but for those given."""
-    return cls(**{name: getattr(value, name) for name in parts_of(cls) if name not in others}, **others)
+def from_attributes(cls: type[T], *values: object, **others: Any) -> T:
+    """An answer whose parts are the attributes by the same names of the first value that has them, but for others."""
+    names = [name for name in parts_of(cls) if name not in others]
+    return cls(**{name: getattr(_first_with(name, values), name) for name in names}, **others)
+
+
+def _first_with(name: str, values: Sequence[object]) -> object:
+    return next((value for value in values[:-1] if hasattr(value, name)), values[-1])
 
 
 # -- document and units ---------------------------------------------------------------------------

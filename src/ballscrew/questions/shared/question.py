@@ -78,12 +78,14 @@ class File:
     _: dataclasses.KW_ONLY
     metavar: str = ""
     is_case: bool = False
+    is_need: bool = False
     is_flag: bool = False
     is_optional: bool = False
     is_repeated: bool = False
 
 
 CASE = File("case", "Case file (TOML); ballscrew catalogue show NAME --case makes one.", is_case=True)
+NEED = File("need", "File (TOML) of what the screw has to do; a case file will do.", metavar="NEED", is_need=True)
 #: The case beside logs, which are the arguments.
 CASE_OF_LOGS = File(
     "case",
@@ -141,10 +143,14 @@ class Request:
     #: The files to read, by the names of the question.
     files: Mapping[str, Sequence[Path]]
     case: CaseSource | None
+    #: A need as it comes: its file, or its tables.
+    need: Path | Mapping[str, Any] | None = None
     case_options: CaseOptions = CaseOptions()
     written: Mapping[str, Any]
     #: Files to write.
     to: Sequence[Path] = ()
+    #: Gets parts of the document that are there before the rest.
+    send: Callable[[Any], None] = lambda _: None
 
     def load(self, moves: Callable[[Mapping[str, Any]], bool] = lambda _: False) -> Case:
         """The case; its motion counts where its tables are those of a case that ``moves``."""
@@ -166,6 +172,12 @@ class Answer(NamedTuple):
     document: Callable[[], Any]
     #: Words for its size, such as "361 angles", for the line on a file that is written.
     size: str = ""
+    #: Writes a file of a kind that the question has beside tables and pictures, and returns what is in it.
+    write: Callable[[Path], str] | None = None
+    #: Lines for the error stream, such as those on rows that are left out.
+    notes: Sequence[str] = ()
+    #: Ctrl-C came before all rows were done.
+    is_interrupted: bool = False
 
 
 class Work(NamedTuple):
@@ -176,6 +188,18 @@ class Work(NamedTuple):
     name: str = ""
     #: Files to write in place of those of the request, each with the name of the table that a .csv has.
     files: Mapping[Path, str] | None = None
+    #: What it will cost, above the bar.
+    cost: str = ""
+
+
+class Plan(NamedTuple):
+    """What a question would do, as an address tells it before it is asked."""
+
+    document: Callable[[Request], Any]
+    #: The model of it.
+    response: Callable[[], Any]
+    #: The docstring of its address.
+    help: str
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -188,6 +212,9 @@ class Endpoint:
     options: Sequence[type] | None = None
     #: Files that come with the case.
     files: Sequence[Sent] = ()
+    #: Options that are not sent, where they are not as those of a command without flags.
+    written: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    plan: Plan | None = None
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -205,6 +232,8 @@ class Question:
     #: The option that names files to write of the sheet, and whether it may be repeated.
     files: Option
     has_several_files: bool = False
+    #: Endings of files that its answer writes itself.
+    own_kinds: Sequence[str] = ()
     #: True where the help has the options behind all others.
     has_options_last: bool = False
     #: Reads and checks all of a request. Raises :class:`~ballscrew.basis.errors.InputError` for faults in it.

@@ -40,9 +40,9 @@ from ballscrew.engine.sweeps.stream import stream
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.engine.uncertainty.bands import ENDS
 from ballscrew.physics.components.materials import TEMPERATURE, nominal_oil
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
+from ballscrew.physics.laws.traits import traits_of
 
 #: A range as people write it in prose: ``10-100 rpm``, ``10 to 100 rpm``, ``10..100 rpm``.
 _FROM_TO = re.compile(

@@ -18,9 +18,9 @@ from ballscrew.evidence.validation.entries import CONDITIONS, Conditions, Entry,
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.files.tables.headings import Column
 from ballscrew.files.tables.rows import made, read
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.calibrations import Calibration, calibrated, calibration
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.questions.card import compute as torque_cards
 from ballscrew.questions.validate.uncertainty import with_bands
 

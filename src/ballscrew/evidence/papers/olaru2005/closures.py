@@ -14,10 +14,10 @@ from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.evidence.papers.olaru2005.claims import judged
 from ballscrew.evidence.papers.olaru2005.observations import observe
 from ballscrew.evidence.papers.olaru2005.verdicts import Finding, Verdict
-from ballscrew.physics.components.film_laws import HamrockDowson
 from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.film import HamrockDowson
 
 #: The claims whose verdict depends on what is left unstated.
 KEYS = ("split_one", "split_two", "minimum", "falling", "rising", "efficiency", "first_zone", "second_zone")
@@ -103,6 +103,6 @@ def closure_checks() -> tuple[ClosureCheck, ...]:
     checks: list[ClosureCheck] = []
     for reading in readings():
         seen = observe(reading.model, reading.screw, reading.oil)
-        found = {claim.key: claim.findings[reading.name] for claim in judged({reading.name: seen}, KEYS)}
-        checks.append(ClosureCheck(reading=reading, findings=found))
+        values = {claim.key: claim.findings[reading.name] for claim in judged({reading.name: seen}, KEYS)}
+        checks.append(ClosureCheck(reading=reading, findings=values))
     return tuple(checks)

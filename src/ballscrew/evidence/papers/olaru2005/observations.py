@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.evidence.papers.olaru2005 import case
-from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import equilibrium, friction
@@ -21,6 +20,7 @@ from ballscrew.physics.friction.result import (
     MECHANISMS,
     FrictionResult,
 )
+from ballscrew.physics.laws.contact import RaceState
 
 #: Steps of 1 rpm, then of 0.05 rpm around the smallest torque found.
 _FINE_STEP = 0.05
