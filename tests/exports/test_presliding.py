@@ -10,8 +10,8 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.exports import requests
 from ballscrew.exports.export import Export
-from ballscrew.exports.presliding import OPTIONS, options_of_case, presliding
 from ballscrew.exports.programs import c99
+from ballscrew.exports.programs.presliding import OPTIONS, options_of_case, presliding
 from ballscrew.physics.moving_balls.friction_states import (
     SlipElement,
     WindingUp,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,8 @@ from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, 
 from ballscrew.basis.quantities import Quantity, within_bounds
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.exports import subject as subjects
 from ballscrew.exports.export import Export, Option, refusal
-from ballscrew.exports.subject import PRELOADS, TEMPERATURE, HandOver, Input, usual_range
+from ballscrew.exports.subject import ANY_TEMPERATURE, OUTPUTS, PRELOADS, TEMPERATURE, HandOver, Input, usual_range
 from ballscrew.exports.targets import target
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
@@ -88,35 +87,28 @@ def export_job(
     derivatives: Sequence[str] = (),
     **options: Any,
 ) -> HandOver:
-    """What :func:`hand_over` gives to the function of a target."""
+    """The job that :func:`hand_over` gives to the function of a target."""
     known = target(to).options
-    faults = [Fault(f"hand_over.{n}", "unknown option", "", nearest(n, known)) for n in options if n not in known]
     subject = Configuration(model, screw, lubricant)
-    faults += _faults(subject, parameters, outputs)
-    raise_if_any(faults)
+    of_nut = known_outputs(subject.nut)
+    faults = [Fault(f"hand_over.{n}", "unknown option", "", nearest(n, known)) for n in options if n not in known]
+    faults += _unknown("parameters", "unknown input", parameters, subject.inputs)
+    raise_if_any([*faults, *_unknown("outputs", "unknown output", outputs, of_nut)])
     inputs = _inputs(subject, parameters, ranges or {})
-    names = [entry.name for entry in inputs]
-    raise_if_any(
-        [Fault("hand_over.derivatives", "is no input", n, nearest(n, names)) for n in derivatives if n not in names]
-    )
+    raise_if_any(_unknown("derivatives", "is no input", derivatives, [entry.name for entry in inputs]))
     return HandOver(
         subject,
         inputs,
-        subjects.output_named(subject, outputs),
+        tuple(of_nut[name] for name in dict.fromkeys([*OUTPUTS, *outputs])),
         tuple(dict.fromkeys(derivatives)),
         {name: _option(name, entry, options.get(name, entry.default)) for name, entry in known.items()},
         frozenset(ranges or ()),
     )
 
 
-def _faults(subject: Configuration, parameters: Sequence[str], outputs: Sequence[str]) -> list[Fault]:
-    inputs, known = subject.inputs, known_outputs(subject.nut)
-    faults = [
-        Fault("hand_over.parameters", "unknown input", n, nearest(n, inputs)) for n in parameters if n not in inputs
-    ]
-    return faults + [
-        Fault("hand_over.outputs", "unknown output", n, nearest(n, known)) for n in outputs if n not in known
-    ]
+def _unknown(where: str, problem: str, names: Iterable[str], known: Collection[str]) -> list[Fault]:
+    """A fault for each name that is not known."""
+    return [Fault(f"hand_over.{where}", problem, name, nearest(name, known)) for name in names if name not in known]
 
 
 def _option(name: str, option: Option, value: Any) -> Any:
@@ -144,13 +136,13 @@ def _inputs(
     names = [*OPERATION[:2], TEMPERATURE]
     names += [n for n in PRELOADS if n in known and subject.value_of(n) is not None]
     names = list(dict.fromkeys([*names, *(n.removeprefix("nut.") for n in parameters)]))
-    raise_if_any([Fault("hand_over.ranges", "is no input", n, nearest(n, names)) for n in ranges if n not in names])
+    raise_if_any(_unknown("ranges", "is no input", ranges, names))
     return tuple(_input(subject, name, ranges.get(name)) for name in names)
 
 
 def _input(subject: Configuration, name: str, asked: tuple[float, float] | None) -> Input:
     fixed = name == TEMPERATURE and name not in subject.inputs
-    quantity = subjects.ANY_TEMPERATURE if fixed else subject.inputs[name][1]
+    quantity = ANY_TEMPERATURE if fixed else subject.inputs[name][1]
     value = 0.0 if name in OPERATION else 313.15 if fixed else subject.value_of(name)
     if value is None or np.ndim(value):
         raise refusal(name, "must have one value", "", "give it in the case")

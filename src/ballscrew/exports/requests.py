@@ -18,7 +18,7 @@ from ballscrew.exports.targets import target
 
 
 class Request(NamedTuple):
-    """What is asked for besides the target, as text."""
+    """All that is asked for besides the target, as text."""
 
     ranges: Sequence[str] = ()
     parameters: Sequence[str] = ()

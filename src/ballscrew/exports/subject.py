@@ -1,4 +1,4 @@
-"""What is handed over: the recorded model with its inputs and outputs, their names, units and ranges."""
+"""The job of a hand-over: the recorded model with its inputs and outputs, their names, units and ranges."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Interpreter, Program
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
 from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
-from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs, slope_name
+from ballscrew.engine.evaluation.outputs import OPERATION, Output, slope_name
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.recordings import recording
 
@@ -120,7 +120,7 @@ class HandOver:
 
     @property
     def has_effect(self) -> Mapping[str, bool]:
-        """Whether the model has each input: not the temperature of an oil that is given by its numbers."""
+        """A truth for each input, where the model has it: not the temperature of an oil given by its numbers."""
         return {name: name in self.subject.inputs for name in self.input_names}
 
     @functools.cached_property
@@ -199,12 +199,12 @@ class HandOver:
 
     @property
     def has_elastic_bodies(self) -> bool:
-        """Whether each ball is solved by itself, between elastic bodies or with deviations."""
+        """True where each ball is solved by itself, between elastic bodies or with deviations."""
         return self.subject.nut.one_by_one
 
     @functools.cached_property
     def is_recordable(self) -> bool:
-        """Whether the model is one list of steps: not where each ball is solved by itself, on plain arrays."""
+        """True where the model is one list of steps: not where each ball is solved by itself, on plain arrays."""
         try:
             return bool(self.program.outputs) or True
         except InputError:
@@ -224,7 +224,7 @@ class HandOver:
 
     @functools.cached_property
     def _interpreter(self) -> Interpreter:
-        """That of the program, with buffers that go with this."""
+        """The interpreter of the program, with buffers that go with this."""
         return self.program.interpreter.with_own_buffers()
 
     def _by_solver(self, given: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
@@ -289,9 +289,3 @@ def usual_range(quantity: Quantity) -> tuple[float, float]:
     ends = (info.above, info.at_least, usual[0]), (info.below, info.at_most, usual[1])
     least, greatest = (next(float(end) for end in result if end is not None) for result in ends)
     return least, greatest
-
-
-def output_named(subject: Configuration, names: Sequence[str]) -> tuple[Output, ...]:
-    """Outputs by name, those of every export first."""
-    known = known_outputs(subject.nut)
-    return tuple(known[name] for name in dict.fromkeys([*OUTPUTS, *names]))

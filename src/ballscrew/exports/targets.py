@@ -33,8 +33,8 @@ TARGETS: Mapping[str, Place] = {
     "drive": Place("tables.curves", "friction over speed as a few points, for the characteristic of a drive"),
     "program": Place("programs.interpreter", "the model as data, with an interpreter in C that is prebuilt for Linux"),
     "fmu": Place("programs.fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
-    "mujoco": Place("programs.mujoco", "joint parameters and an engine plugin for MuJoCo"),
-    "urdf": Place("programs.urdf", "friction of a joint in URDF, SDF and USD"),
+    "mujoco": Place("programs.joints", "joint parameters and an engine plugin for MuJoCo"),
+    "urdf": Place("programs.joints", "friction of a joint in URDF, SDF and USD"),
 }
 
 

@@ -49,7 +49,7 @@ OUTPUTS = (
     "lift_off_load", "residual", "valid", "screw_semi_major_axis", "nut_semi_major_axis", "power_imbalance", *BALL,
 )  # fmt: skip
 #: Of these what sweeps do not ask for.
-_BESIDE: Mapping[str, Output] = {
+_FURTHER: Mapping[str, Output] = {
     "power_imbalance": Output(
         "power_imbalance",
         Quantity("power_imbalance", "1", Info("", "power of the torque beyond what is dissipated, as a share of that")),
@@ -84,38 +84,13 @@ class Function(NamedTuple):
     constants: Mapping[str, float]
 
 
-class OfBall(NamedTuple):
-    """The function of what each ball has: where its inputs are from, its outputs, and which of them are reduced."""
-
-    name: str
-    #: By input, "columns" and an output of the function of the points, or "points" and what each ball has.
-    inputs: tuple[tuple[str, str], ...]
-    outputs: tuple[str, ...]
-    #: Outputs of which only the sum or the greatest value over the balls is kept.
-    reduced: tuple[str, ...]
-
-
-class ByBall(NamedTuple):
-    """A nut whose balls are solved one by one, in parts that run one after the other."""
-
-    halves: int
-    four_contacts: bool
-    swells: bool
-    #: The numbers of the nut for the solver, in its order, the load, the preload, and more of the nut.
-    numbers: Function
-    points: Function
-    ball: OfBall
-    #: Reductions over the balls: "sum", "max", "argmax", or "take" at the place that an earlier one has found.
-    reductions: tuple[tuple[str, str, int | None], ...]
-    behind: Function
-
-
 class Module(NamedTuple):
     """A module: its bytes and what is in it."""
 
     code: bytes
     functions: tuple[Function, ...]
-    by_ball: ByBall | None = None
+    #: Of a nut whose balls are solved one by one: the parts that run one after the other, as a document.
+    by_ball: Mapping[str, Any] | None = None
 
     @property
     def file(self) -> str:
@@ -124,8 +99,9 @@ class Module(NamedTuple):
 
     @property
     def described(self) -> dict[str, Any]:
-        """What runs it has to know, as a document: its file, and what each function reads and gives."""
-        return {"file": self.file, **described(self.functions[0]), **_parted(self.by_ball)}
+        """The document for who runs it: its file, and what each function reads and gives."""
+        by_ball = {} if self.by_ball is None else {"by_ball": self.by_ball}
+        return {"file": self.file, **described(self.functions[0]), **by_ball}
 
 
 class KeptModule(NamedTuple):
@@ -136,7 +112,7 @@ class KeptModule(NamedTuple):
 
     @classmethod
     def of(cls, module: Module) -> KeptModule:
-        """That of a module which was made now."""
+        """The kept form of a module which was made now."""
         return cls(json.loads(json.dumps(module.described)), module.code)
 
     @property
@@ -147,8 +123,8 @@ class KeptModule(NamedTuple):
 
 def kept_module(name: str) -> KeptModule | None:
     """A module from the disk by the name of its structure; None where there is none."""
-    result = kernel.kept(name)
-    return None if result is None else KeptModule(json.loads(result[0]), result[1])
+    kept = kernel.kept(name)
+    return None if kept is None else KeptModule(json.loads(kept[0]), kept[1])
 
 
 def described(function: Function) -> dict[str, Any]:
@@ -161,33 +137,10 @@ def described(function: Function) -> dict[str, Any]:
     }
 
 
-def _parted(parts: ByBall | None) -> dict[str, Any]:
-    """A nut whose balls are solved one by one, where it is one."""
-    if parts is None:
-        return {}
-    ball = parts.ball
-    result = {
-        "halves": parts.halves,
-        "four_contacts": parts.four_contacts,
-        "swells": parts.swells,
-        "numbers": described(parts.numbers),
-        "points": described(parts.points),
-        "ball": {
-            "function": ball.name,
-            **{name: list(getattr(ball, name)) for name in ("inputs", "outputs", "reduced")},
-        },
-        "reductions": list(parts.reductions),
-        "behind": described(parts.behind),
-        "tile": TILE,
-        "solver": [*ElasticNutNumbers._fields, *OF_POINT],
-    }
-    return {"by_ball": result}
-
-
 def outputs_of(nut: Nut, outputs: Collection[str] = OUTPUTS) -> Mapping[str, Output]:
-    """Those of some outputs that the module of such a nut gives, and all parts of the torque, by name."""
-    beside = {n: output for n, output in _BESIDE.items() if not (nut.is_row and n in BALL)}
-    known = {**known_outputs(nut), **beside}
+    """Outputs, of some, that the module of such a nut gives, and all parts of the torque, by name."""
+    further = {n: output for n, output in _FURTHER.items() if not (nut.is_row and n in BALL)}
+    known = {**known_outputs(nut), **further}
     left_out = {"lift_off_load"} if nut.one_by_one else ()  # a search, which no recording holds
     return {n: o for n, o in known.items() if (n in outputs or n.startswith(_PARTS)) and n not in left_out}
 
@@ -224,11 +177,27 @@ def _by_ball(subject: Configuration, names: tuple[str, ...], program: Program) -
     )
     nut, bodies = subject.nut, subject.nut.bodies
     assert bodies is not None, "elastic bodies"
-    of_ball = OfBall("ball", tables, tuple(cut.points.outputs), tuple(stages.sums))
-    reductions = tuple((_REDUCTIONS[entry.function], entry.values, entry.place) for entry in stages.reductions)
-    four = nut.contacts_per_ball == 4
-    parted = ByBall(nut.halves, four, bodies.swelling, functions[0], functions[1], of_ball, reductions, functions[2])
-    return Module(wasm.module_of([*parts, wasm.Part("ball", text)]), (functions[2],), parted)
+    by_ball = {
+        "halves": nut.halves,
+        "four_contacts": nut.contacts_per_ball == 4,
+        "swells": bodies.swelling,
+        # the numbers of the nut for the solver, in its order, the load, the preload, and more of the nut
+        "numbers": described(functions[0]),
+        "points": described(functions[1]),
+        # by input "columns" and an output of the function of the points, or "points" and what each ball has
+        "ball": {
+            "function": "ball",
+            "inputs": tables,
+            "outputs": list(cut.points.outputs),
+            "reduced": list(stages.sums),
+        },
+        # over the balls: "sum", "max", "argmax", or "take" at the place that an earlier one has found
+        "reductions": [(_REDUCTIONS[step.function], step.values, step.place) for step in stages.reductions],
+        "behind": described(functions[2]),
+        "tile": TILE,
+        "solver": [*ElasticNutNumbers._fields, *OF_POINT],
+    }
+    return Module(wasm.module_of([*parts, wasm.Part("ball", text)]), (functions[2],), by_ball)
 
 
 _REDUCTIONS: Mapping[Any, str] = {np.sum: "sum", np.max: "max", np.argmax: "argmax", np.take_along_axis: "take"}
@@ -248,9 +217,7 @@ def _numbers(subject: Configuration, names: tuple[str, ...]) -> tuple[tuple[str,
     solved = elastic_nut_numbers(screw, nut, dataclasses.replace(usual, nut_outer_diameter=outer))
     load, preload = settled(points[OPERATION[0]]), preload_of_rigid_bodies(screw, nut)
     of_point = dict(zip(OF_POINT, (load, preload), strict=True))
-    result = {**solved._asdict(), **of_point, "balls": screw.carrying_balls}
-    program = merged_program(tape, result)
-    return every, program
+    return every, merged_program(tape, {**solved._asdict(), **of_point, "balls": screw.carrying_balls})
 
 
 @functools.cache

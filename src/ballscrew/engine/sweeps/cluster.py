@@ -23,10 +23,7 @@ from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from ballscrew.basis.errors import (
-    Fault,
-    InputError,
-)
+from ballscrew.basis.errors import Fault, InputError
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.fingerprint import package_digest
 from ballscrew.engine.sweeps.store import FULL, Store
@@ -51,10 +48,14 @@ _lock = threading.Lock()
 _evaluations: dict[tuple[str, str], Evaluation] = {}
 
 
+def _check_installed(where: str, given: str = "") -> None:
+    if importlib.util.find_spec("distributed") is None:
+        raise InputError(Fault(where, "needs distributed", given, 'pip install "ballscrew[cluster]"'))
+
+
 def check_cluster(cluster: Any) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` unless it is a client of a cluster with workers."""
-    if importlib.util.find_spec("distributed") is None:
-        raise InputError(Fault(_WHERE, "needs distributed", "", 'pip install "ballscrew[cluster]"'))
+    _check_installed(_WHERE)
     import distributed
 
     if not isinstance(cluster, distributed.Client):
@@ -69,8 +70,7 @@ def cluster_client(address: str, where: str = _WHERE) -> Generator[Any]:
 
     Raises :class:`~ballscrew.basis.errors.InputError` if no scheduler answers.
     """
-    if importlib.util.find_spec("distributed") is None:
-        raise InputError(Fault(where, "needs distributed", address, 'pip install "ballscrew[cluster]"'))
+    _check_installed(where, address)
     import distributed
 
     try:

@@ -62,7 +62,7 @@ def reversal(
     measured. Raises :class:`~ballscrew.basis.errors.InputError` for arrays, a speed of zero, a travel that is
     not above zero, a gap below zero, balls without load, and for a model without slip across the path.
     """
-    found = moving_balls.reversal(
+    curve = moving_balls.reversal(
         model,
         screw,
         lubricant,
@@ -73,40 +73,40 @@ def reversal(
         gap=gap,
     )
     operation = {"axial_load": axial_load, "screw_speed": screw_speed}
-    return dataset_of(Configuration(model, screw, lubricant), found, operation)
+    return dataset_of(Configuration(model, screw, lubricant), curve, operation)
 
 
-def dataset_of(subject: Configuration, found: moving_balls.Reversal, operation: Mapping[str, Any]) -> xr.Dataset:
+def dataset_of(subject: Configuration, curve: moving_balls.Reversal, operation: Mapping[str, Any]) -> xr.Dataset:
     """A reversal with names, units and sources, at its operating point."""
     over = ("screw_angle",)
     variables: dict[str, Any] = {
-        name: (over, np.asarray(getattr(found, name), dtype=float), attributes_of(QUANTITIES[name]))
+        name: (over, np.asarray(getattr(curve, name), dtype=float), attributes_of(QUANTITIES[name]))
         for name in ("travel", "screw_torque")
     }
-    for mechanism, values in found.contributions.items():
+    for mechanism, values in curve.contributions.items():
         name = f"contribution_{mechanism}"
         variables[name] = (over, np.asarray(values, dtype=float), attributes_of(contribution(mechanism)))
-    variables["steady_torque"] = ((), float(found.steady_torque), attributes_of(QUANTITIES["steady_torque"]))
-    for mechanism, value in found.steady_contributions.items():
+    variables["steady_torque"] = ((), float(curve.steady_torque), attributes_of(QUANTITIES["steady_torque"]))
+    for mechanism, value in curve.steady_contributions.items():
         name = f"steady_contribution_{mechanism}"
         variables[name] = ((), float(value), attributes_of(contribution(mechanism, steady=True)))
-    if found.displacement:
-        variables["displacement"] = (("kind", *over), np.array(found.displacement), attributes_of(_LENGTH))
+    if curve.displacement:
+        variables["displacement"] = (("kind", *over), np.array(curve.displacement), attributes_of(_LENGTH))
     fields = fields_of(OperatingState)
     coordinates: dict[str, Any] = {
-        "screw_angle": (over, np.asarray(found.screw_angle, dtype=float), attributes_of(QUANTITIES["screw_angle"]))
+        "screw_angle": (over, np.asarray(curve.screw_angle, dtype=float), attributes_of(QUANTITIES["screw_angle"]))
     }
     coordinates |= {name: ((), float(value), attributes_of(fields[name])) for name, value in operation.items()}
     records = subject.implausible(operation)
-    said = "; ".join(f"{record.name}: {record.text}" for record in records)
-    start = "from rest" if found.from_rest else "after a reversal"
+    sentences = "; ".join(f"{record.name}: {record.text}" for record in records)
+    start = "from rest" if curve.from_rest else "after a reversal"
     attributes = {
         **subject.attributes(),
         "title": f"Ball screw friction {start}, model {subject.model.label}",
         "start": start,
         "comment": HYPOTHESIS,
     }
-    return xr.Dataset(variables, coordinates, attributes | ({"warnings": said} if said else {}))
+    return xr.Dataset(variables, coordinates, attributes | ({"warnings": sentences} if sentences else {}))
 
 
 def contribution(mechanism: str, *, steady: bool = False) -> Quantity:

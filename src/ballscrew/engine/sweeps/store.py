@@ -36,11 +36,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.basis.errors import (
-    Fault,
-    InputError,
-    raise_if_any,
-)
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.engine.evaluation.evaluation import Engine, Evaluation
 from ballscrew.engine.evaluation.plan import Plan
 from ballscrew.engine.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan
@@ -65,12 +61,10 @@ class UnfinishedSweepError(OSError):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Store:
-    """The folder of a sweep. It can be sent to other processes that see the same files."""
+class Store(Contents):
+    """The files of a sweep, as they are filled. It can be sent to other processes that see the same files."""
 
-    path: Path
     plan: Plan
-    blocks: Blocks
     #: The document that identifies the store.
     description: Mapping[str, Any]
 
@@ -113,8 +107,8 @@ class Store:
             engine_of |= {n: v for n, v in stored.get("attributes", {}).items() if n == "engine_reason"}
         all_attributes = {**plan.attributes, **engine_of, **(attributes or {})}
         document = description_of(plan, blocks, all_attributes, engine=evaluation.engine, identity=evaluation.identity)
-        store = cls(folder, plan, blocks, document)
-        store.check(stored)
+        store = cls.planned(folder, document, plan=plan, description=document)
+        store.check_plan(stored)
         return store, evaluation
 
     def check_from_worker(self) -> None:
@@ -130,42 +124,27 @@ class Store:
             host = f"{self.path} on {socket.gethostname()}"
             raise InputError(Fault(WHERE, "is not seen by a worker", host, "give a folder that all nodes share"))
 
-    def check(self, stored: Mapping[str, Any] | None) -> None:
+    def check_plan(self, stored: Mapping[str, Any] | None) -> None:
         """Raise :class:`~ballscrew.basis.errors.InputError` if another sweep is there, and say how it differs."""
         remedy = f"choose another name, or remove {self.path}"
         differing = [] if stored is None else differences(stored, self.description)
         raise_if_any([Fault(WHERE, "holds another sweep", words, remedy) for words in differing])
-
-    @functools.cached_property
-    def contents(self) -> Contents:
-        """The files that the store has by its plan."""
-        return Contents.of(self.path, self.description)
-
-    @property
-    def own(self) -> Path:
-        """The folder with the plan and the checksums."""
-        return self.contents.own
 
     @property
     def variables(self) -> list[str]:
         """The outputs in the store; what is varied is there as a coordinate."""
         return [name for name in self.plan.wanted if name not in self.plan.axes]
 
-    @property
-    def is_complete(self) -> bool:
-        """Return whether all blocks are finished and the store can be opened."""
-        return self.contents.is_complete
-
     def finished(self) -> Collection[int]:
         """The numbers of the finished blocks; those without a valid row are left out."""
-        return self.contents.rows().keys()
+        return self.rows().keys()
 
     # -- from begin to end ------------------------------------------------------------------------
 
     def begin(self) -> bool:
         """Prepare the folder for blocks; remove what a killed process left behind. Return whether the store is new."""
         stored = stored_plan(self.path)
-        self.check(stored)
+        self.check_plan(stored)
         shutil.rmtree(self.own / "temporary", ignore_errors=True)
         (self.own / "temporary").mkdir(exist_ok=True)
         if stored is None:
@@ -177,9 +156,8 @@ class Store:
 
         Damaged metadata are written again.
         """
-        contents, rows = self.contents, self.contents.rows()
-        of_blocks = contents.damaged_blocks(rows, checksums=True)
-        others = contents.damaged_layout(checksums=True)
+        rows = self.rows()
+        of_blocks, others = self.damaged_blocks(rows, checksums=True), self.damaged_layout(checksums=True)
         if self.is_complete and (of_blocks or others):
             (self.path / ROOT).replace(_free(self.own / ROOT))  # nobody shall open it until it is repaired
         if others:
@@ -214,9 +192,9 @@ class Store:
     def finish(self) -> None:
         """One file of checksums, then the root's metadata: now the store can be opened."""
         if not self.is_complete:
-            rows = self.contents.rows()
+            rows = self.rows()
             table = (rows[number] for number in range(self.blocks.count))
-            self._put(self.own / "blocks.csv", itertools.chain([row(self.digest, self.contents.heading)], table))
+            self._put(self.own / "blocks.csv", itertools.chain([row(self.digest, self.heading)], table))
             (self.own / ROOT).replace(self.path / ROOT)
         self.clear()
         shutil.rmtree(self.own / "blocks", ignore_errors=True)
@@ -233,15 +211,9 @@ class Store:
     @property
     def is_intact(self) -> bool:
         """Return whether the store is complete, and all files are there in their sizes."""
-        contents = self.contents
-        if not (self.is_complete and self.is_tidy) or contents.damaged_layout(checksums=False):
+        if not (self.is_complete and self.is_tidy) or self.damaged_layout(checksums=False):
             return False
-        return not contents.damaged_blocks(contents.rows(), checksums=False)
-
-    @functools.cached_property
-    def digest(self) -> str:
-        """The digest of the document, to which all checksums are bound."""
-        return self.contents.plan
+        return not self.damaged_blocks(self.rows(), checksums=False)
 
     # -- blocks -----------------------------------------------------------------------------------
 
@@ -249,7 +221,7 @@ class Store:
         """Write the results of a block, one output; size and checksum. Values are those of the flattened block."""
         from ballscrew.engine.sweeps.store_zarr import chunk_of
 
-        key = self.contents.key(number, name)
+        key = self.key(number, name)
         chunk = chunk_of(self._metadata[name], self.blocks, number, values)
         if chunk is None:
             _free(self.path / key).unlink(missing_ok=True)
@@ -259,11 +231,8 @@ class Store:
 
     def commit(self, number: int, results: Mapping[str, np.ndarray], chunks: Mapping[str, Content]) -> None:
         """Mark a block as finished, after all its outputs are written."""
-        contents = self.contents
-        written = itertools.chain.from_iterable(
-            (chunks[name].checksum, chunks[name].bytes) for name in contents.variables
-        )
-        false = [results[name].size - np.count_nonzero(results[name]) for name in contents.truths]
+        written = itertools.chain.from_iterable((chunks[name].checksum, chunks[name].bytes) for name in self.columns)
+        false = [results[name].size - np.count_nonzero(results[name]) for name in self.truths]
         self._put(self.own / "blocks" / str(number), [row(self.digest, [number, *written, *false])])
 
     @functools.cached_property

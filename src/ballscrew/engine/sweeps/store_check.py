@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import functools
 import itertools
 import os
 import stat
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.engine.sweeps.store_files import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
@@ -89,7 +90,7 @@ def contents_of(path: Path) -> Contents:
     if document["format"] != FORMAT:
         remedy = f"sweep again under another name: a store of format {FORMAT} has checksums bound to its plan"
         raise InputError(Fault(WHERE, "is a store of another version", f"{path}: format {document['format']}", remedy))
-    return Contents.of(path, document)
+    return Contents.planned(path, document)
 
 
 def stored_plan(folder: Path, *, foreign: str = "choose another name", damaged: str = OTHER) -> dict[str, Any] | None:
@@ -140,60 +141,24 @@ def file_in_place_of_a_folder(path: Path, store: Path) -> Path | None:
 
 
 @dataclasses.dataclass(frozen=True)
-class Noted:
-    """Sizes and checksums as they were noted when the files were written."""
-
-    contents: Contents
-    layout: Mapping[str, Content]
-    rows: Mapping[int, bytes]
-
-    def check(self, key: str, content: Any) -> None:
-        """Raise :class:`~ballscrew.basis.errors.InputError` for a file that is not as it was written; None is no
-        file.
-        """
-        noted = self._of(key)
-        if noted is None:
-            return
-        found = Content.of(self.contents.plan, key, b"" if content is None else content)
-        if found == noted:
-            return
-        problem = "is missing" if content is None else "is damaged, or of another sweep"
-        raise InputError(Fault(WHERE, f"has a file that {problem}", str(self.contents.path / key), AGAIN))
-
-    def _of(self, key: str) -> Content | None:
-        """What was noted of a file; None of what the store does not have."""
-        if key in self.layout:
-            return self.layout[key]
-        name, _, place = key.partition("/")
-        number = self.contents.blocks.number(place)
-        if name not in self.contents.variables or number is None:
-            return None
-        if number not in self.rows:
-            where = f"{self.contents.own}: no valid row of block {number}"
-            raise InputError(Fault(WHERE, "has checksums that cannot be read", where, AGAIN))
-        cells = self.contents.cells(self.rows[number])
-        return Content(int(cells[f"{name}{BYTES}"]), cells[name])
-
-
-@dataclasses.dataclass(frozen=True)
 class Contents:
     """The files that a store has by its plan."""
 
     path: Path
     blocks: Blocks
     #: The outputs, in the order of the table of blocks, and those that are truth values.
-    variables: tuple[str, ...]
+    columns: tuple[str, ...]
     truths: tuple[str, ...]
     #: The digest of the plan, to which all checksums are bound.
-    plan: str
+    digest: str
 
     @classmethod
-    def of(cls, path: Path, document: Mapping[str, Any]) -> Contents:
-        """The files of a store with this document."""
+    def planned(cls, path: Path, document: Mapping[str, Any], **more: Any) -> Self:
+        """The files of a store with this document; ``more`` are further fields."""
         outputs = {name: kind for name, kind in sorted(document["outputs"].items()) if name not in document["axes"]}
         truths = tuple(name for name, kind in outputs.items() if kind == "bool")
         blocks = Blocks(tuple(document["shape"]), tuple(document["chunks"]))
-        return cls(path, blocks, tuple(outputs), truths, checksum(document))
+        return cls(path, blocks, tuple(outputs), truths, checksum(document), **more)
 
     @property
     def own(self) -> Path:
@@ -208,7 +173,7 @@ class Contents:
     @property
     def heading(self) -> tuple[str, ...]:
         """The headings of the table of blocks."""
-        columns = itertools.chain.from_iterable((name, f"{name}{BYTES}") for name in self.variables)
+        columns = itertools.chain.from_iterable((name, f"{name}{BYTES}") for name in self.columns)
         return ("block", *columns, *(f"{name}{FALSE}" for name in self.truths))
 
     def key(self, number: int, name: str) -> str:
@@ -220,20 +185,20 @@ class Contents:
 
         Raises :class:`~ballscrew.basis.errors.InputError` where nobody may read them: they may all be good.
         """
-        found: dict[int, bytes] = {}
+        rows: dict[int, bytes] = {}
         table = self.own / "blocks.csv"
         missing = FileNotFoundError, NotADirectoryError, IsADirectoryError
         try:
             with contextlib.suppress(*missing), table.open("rb") as file:
                 next(file, None)
-                self._add(found, file)
+                self._add(rows, file)
         except OSError as error:
             raise unreadable(table, error) from None
         for entry in self._entries():
             if entry.is_file(follow_symlinks=False):
                 with contextlib.suppress(OSError):  # ``_unread_rows`` says which
-                    self._add(found, [Path(entry.path).read_bytes()], entry.name)
-        return found
+                    self._add(rows, [Path(entry.path).read_bytes()], entry.name)
+        return rows
 
     def _entries(self) -> Iterator[os.DirEntry[str]]:
         """The entries of the folder with the rows of single blocks."""
@@ -247,20 +212,20 @@ class Contents:
     def _unread_rows(self, rows: Mapping[int, bytes]) -> list[Damage]:
         """The blocks with a folder or a link in place of the file of their row, or with one that cannot be read."""
         is_blocked = not self.is_complete and (self.own / "blocks").is_file()
-        found = [Damage(f"{OWN}/blocks", "is a file and no folder")] if is_blocked else []
+        damaged = [Damage(f"{OWN}/blocks", "is a file and no folder")] if is_blocked else []
         for entry in self._entries():
             number = int(entry.name) if entry.name.isdecimal() else self.blocks.count
             if number < self.blocks.count and number not in rows and (problem := _unread(entry)):
-                found.append(Damage(f"{OWN}/blocks/{entry.name}", problem, number))
-        return found
+                damaged.append(Damage(f"{OWN}/blocks/{entry.name}", problem, number))
+        return damaged
 
-    def _add(self, found: dict[int, bytes], lines: Any, name: str | None = None) -> None:
+    def _add(self, rows: dict[int, bytes], lines: Any, name: str | None = None) -> None:
         for line in lines:
-            cells = cells_of(self.plan, line)
+            cells = cells_of(self.digest, line)
             if cells is None or len(cells) != len(self.heading) or name not in (None, cells[0]):
                 continue
             if 0 <= int(cells[0]) < self.blocks.count:
-                found[int(cells[0])] = line
+                rows[int(cells[0])] = line
 
     def damaged_blocks(self, rows: Mapping[int, bytes], *, checksums: bool) -> list[Damage]:
         """The chunks of finished blocks that are not as they were written.
@@ -270,13 +235,13 @@ class Contents:
 
         def of_block(number: int) -> list[Damage]:
             cells = self.cells(rows[number])
-            found: list[Damage] = []
-            for name in self.variables:
+            damaged: list[Damage] = []
+            for name in self.columns:
                 key = self.key(number, name)
                 noted = Content(int(cells[f"{name}{BYTES}"]), cells[name])
                 if problem := self._problem(self.path / key, key, noted, checksums=checksums):
-                    found.append(Damage(key, problem, number))
-            return found
+                    damaged.append(Damage(key, problem, number))
+            return damaged
 
         numbers, damaged = list(rows), self._unread_rows(rows)
         with ThreadPoolExecutor(READERS) as pool:
@@ -290,8 +255,10 @@ class Contents:
     def _has_whole_table(self) -> bool:
         """Return whether the table of blocks has its heading and as many rows as there are blocks, all valid."""
         with contextlib.suppress(OSError), (self.own / "blocks.csv").open("rb") as file:
-            is_headed = next(file, b"") == row(self.plan, self.heading)
-            return is_headed and [cells_of(self.plan, line) is not None for line in file] == [True] * self.blocks.count
+            is_headed = next(file, b"") == row(self.digest, self.heading)
+            return (
+                is_headed and [cells_of(self.digest, line) is not None for line in file] == [True] * self.blocks.count
+            )
         return False
 
     def _layout(self) -> dict[str, Content] | None:
@@ -311,16 +278,16 @@ class Contents:
             layout = None
         if layout is None:
             return [Damage(f"{OWN}/{LAYOUT}", "is damaged")]
-        found: list[Damage] = []
+        damaged: list[Damage] = []
         if self.is_complete and not self._has_whole_table():
-            found.append(Damage(f"{OWN}/blocks.csv", "is damaged"))
+            damaged.append(Damage(f"{OWN}/blocks.csv", "is damaged"))
         for key, noted in layout.items():
             path = self.own / ROOT if key == ROOT and not self.is_complete else self.path / key
             # metadata are small; coordinates may be as long as an axis
             problem = self._problem(path, key, noted, checksums=checksums or path.name == ROOT)
             if problem:
-                found.append(Damage(key, problem))
-        return found
+                damaged.append(Damage(key, problem))
+        return damaged
 
     def _problem(self, path: Path, key: str, noted: Content, *, checksums: bool) -> str:
         """Problem of a file; a chunk of nothing but the fill value has no bytes and no file."""
@@ -331,7 +298,7 @@ class Contents:
             if state.st_size != noted.bytes:
                 return f"has {state.st_size} bytes, not {noted.bytes}"
             return (
-                "has another checksum" if checksums and Content.of(self.plan, key, path.read_bytes()) != noted else ""
+                "has another checksum" if checksums and Content.of(self.digest, key, path.read_bytes()) != noted else ""
             )
         except NotADirectoryError:
             store = path.parents[key.count("/")]
@@ -346,20 +313,44 @@ class Contents:
 
     def cells(self, line: bytes) -> dict[str, str]:
         """The cells of a valid row by their headings."""
-        return dict(zip(self.heading, cells_of(self.plan, line) or (), strict=True))
+        return dict(zip(self.heading, cells_of(self.digest, line) or (), strict=True))
 
-    def noted(self) -> Noted:
-        """Sizes and checksums by file, to compare what is read with.
+    def check(self, key: str, content: Any) -> None:
+        """Raise :class:`~ballscrew.basis.errors.InputError` for a file that is not as it was written; None is no file.
 
-        Raises :class:`~ballscrew.basis.errors.InputError` where they cannot be read.
+        It is raised, too, where the checksums cannot be read.
         """
+        noted = self._noted_of(key)
+        if noted is None or Content.of(self.digest, key, b"" if content is None else content) == noted:
+            return
+        problem = "is missing" if content is None else "is damaged, or of another sweep"
+        raise InputError(Fault(WHERE, f"has a file that {problem}", str(self.path / key), AGAIN))
+
+    @functools.cached_property
+    def _noted(self) -> tuple[Mapping[str, Content], Mapping[int, bytes]]:
+        """Sizes and checksums of metadata and coordinates, and the rows of blocks, read once."""
         layout = None
         with contextlib.suppress(OSError, ValueError, TypeError):
             layout = self._layout()
         if layout is None:
-            where = str(self.own / LAYOUT)
-            raise InputError(Fault(WHERE, "has checksums that cannot be read", where, AGAIN))
-        return Noted(self, layout, self.rows())
+            raise _unreadable_checksums(str(self.own / LAYOUT))
+        return layout, self.rows()
+
+    def _noted_of(self, key: str) -> Content | None:
+        """Size and checksum of a file as it was written; None of what the store does not have."""
+        layout, rows = self._noted
+        name, _, place = key.partition("/")
+        number = self.blocks.number(place)
+        if key in layout or name not in self.columns or number is None:
+            return layout.get(key)
+        if number not in rows:
+            raise _unreadable_checksums(f"{self.own}: no valid row of block {number}")
+        cells = self.cells(rows[number])
+        return Content(int(cells[f"{name}{BYTES}"]), cells[name])
+
+
+def _unreadable_checksums(where: str) -> InputError:
+    return InputError(Fault(WHERE, "has checksums that cannot be read", where, AGAIN))
 
 
 def _unread(entry: os.DirEntry[str]) -> str:
@@ -378,8 +369,7 @@ def count_false(path: Path) -> dict[str, tuple[int, int]]:
     contents = contents_of(path)
     rows, counts = contents.rows(), dict[str, tuple[int, int]]()
     if len(rows) < contents.blocks.count:
-        where = str(contents.own / "blocks.csv")
-        raise InputError(Fault(WHERE, "has checksums that cannot be read", f"{where}: a damaged row", AGAIN))
+        raise _unreadable_checksums(f"{contents.own / 'blocks.csv'}: a damaged row")
     for number in range(contents.blocks.count):
         cells = contents.cells(rows[number])
         for name in contents.truths:

@@ -48,7 +48,7 @@ class Content(NamedTuple):
 
     @classmethod
     def of(cls, plan: str, key: str, content: Any) -> Content:
-        """That of a file of a plan, by its digest, under its path in the store: elsewhere it has another checksum."""
+        """Size and checksum of a file of a plan, by its digest, under its path: elsewhere it has another."""
         view = memoryview(content).cast("B") if len(content) else b""
         return cls(len(view), f"{zlib.crc32(view, zlib.crc32(f'{plan} {key}'.encode())):08x}")
 

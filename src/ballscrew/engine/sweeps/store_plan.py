@@ -192,17 +192,17 @@ def is_plan(document: Mapping[str, Any]) -> bool:
 
 def differences(stored: Mapping[str, Any], wanted: Mapping[str, Any]) -> list[str]:
     """The differences of two descriptions as text: ``screw_lead 0.005, not 0.01``."""
-    found: dict[str, list[str]] = {}
+    differing: dict[str, list[str]] = {}
     for name in (*wanted, *(name for name in stored if name not in wanted)):
         theirs, ours = stored.get(name), wanted.get(name)
         if ours == theirs:
             continue
         if isinstance(ours, dict) and isinstance(theirs, dict):
-            found[name] = differences(theirs, ours)
+            differing[name] = differences(theirs, ours)
         else:
-            found[name] = [f"{name.replace('_', ' ')} {_shown(theirs)}, not {_shown(ours)}"]
-    causes = [words for name, words in found.items() if name not in _CONSEQUENCES]
-    return list(itertools.chain(*(causes or found.values())))
+            differing[name] = [f"{name.replace('_', ' ')} {_shown(theirs)}, not {_shown(ours)}"]
+    causes = [words for name, words in differing.items() if name not in _CONSEQUENCES]
+    return list(itertools.chain(*(causes or differing.values())))
 
 
 def _shown(value: Any) -> str:

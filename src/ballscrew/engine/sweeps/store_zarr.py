@@ -22,7 +22,7 @@ from zarr.storage import LocalStore, MemoryStore, WrapperStore
 
 from ballscrew.engine.evaluation.outputs import attributes_of
 from ballscrew.engine.evaluation.plan import Plan
-from ballscrew.engine.sweeps.store_check import ROOT, Noted, contents_of
+from ballscrew.engine.sweeps.store_check import ROOT, Contents, contents_of
 from ballscrew.engine.sweeps.store_files import Content
 from ballscrew.engine.sweeps.store_plan import Blocks
 
@@ -108,9 +108,9 @@ class CheckedStore(WrapperStore[LocalStore]):
         """The content of a file, as it was written."""
         content = await super().get(key, prototype, byte_range)
         if byte_range is None:  # Zarr reads chunks whole
-            self._noted.check(key, None if content is None else content.as_numpy_array())
+            self._contents.check(key, None if content is None else content.as_numpy_array())
         return content
 
     @functools.cached_property
-    def _noted(self) -> Noted:
-        return contents_of(Path(self._store.root)).noted()
+    def _contents(self) -> Contents:
+        return contents_of(Path(self._store.root))

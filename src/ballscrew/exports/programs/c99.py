@@ -8,9 +8,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ballscrew.exports.export import Export, Target, filled
-from ballscrew.exports.presliding import OPTIONS, options_of_case, presliding
 from ballscrew.exports.programs.c_source import Body, body_of, number, own_functions
 from ballscrew.exports.programs.interpreter import errors_of_program
+from ballscrew.exports.programs.presliding import OPTIONS, options_of_case, presliding
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 from ballscrew.physics.friction.validity import NUT_REASONS
@@ -33,7 +33,8 @@ def export(job: HandOver) -> Export:
     """The model as C99: source, header, example with a test vector, and a text; with the friction after a reversal,
     where it is asked for.
 
-    Raises :class:`~ballscrew.basis.errors.InputError` as :func:`~ballscrew.exports.presliding.presliding` does.
+    Raises :class:`~ballscrew.basis.errors.InputError` as
+    :func:`~ballscrew.exports.programs.presliding.presliding` does.
     """
     body, returning = body_of(job), presliding(job)
     load, speed = _example_point(job)

@@ -237,7 +237,7 @@ def _files(parent: xml.Element, tag: str, main: str) -> None:
 
 
 def _build_description() -> xml.Element:
-    """Which sources make the library, for version 3.0."""
+    """The sources that make the library, for version 3.0."""
     root = xml.Element("fmiBuildDescription", {"fmiVersion": "3.0"})
     configuration = xml.SubElement(root, "BuildConfiguration", {"modelIdentifier": IDENTIFIER})
     files = xml.SubElement(configuration, "SourceFileSet", {"language": "C99"})

@@ -87,7 +87,7 @@ def program_at_points(job: HandOver) -> tuple[Values, dict[str, NDArray[np.float
 
 
 def runs_here() -> bool:
-    """Whether the prebuilt library runs on this machine."""
+    """Return whether the prebuilt library runs on this machine."""
     if not (sys.platform == "linux" and platform.machine() == "x86_64"):
         return False
     try:

@@ -173,7 +173,7 @@ class JointFriction:
         return records
 
     def at_points(self, points: Values) -> dict[str, NDArray[np.float64]]:
-        """What the joint says at points of the model."""
+        """The friction of the joint at points of the model."""
         return {"screw_torque": self.torque(points[OPERATION[1]])}
 
 
@@ -255,7 +255,7 @@ def least_largest_error(speed: NDArray[np.float64], torque: NDArray[np.float64],
 
 
 def joint_range(job: HandOver) -> dict[str, tuple[float, float]]:
-    """Where a joint holds: its loads and speeds, and all else as in the case."""
+    """The range of a joint: its loads and speeds, and all else as in the case."""
     at_case = {entry.name: (entry.value, entry.value) for entry in job.inputs}
     return {**at_case, **{name: job.working_range[name] for name in OPERATION}}
 
@@ -393,5 +393,5 @@ def joint_export(
 
 
 def provenance_line(job: HandOver) -> str:
-    """What made a file, and of which model."""
+    """The line that says what made a file, and of which model."""
     return f"Made by ballscrew {job.provenance['version']}. {c99.title(job)}."

@@ -64,17 +64,17 @@ class TwoLevels:
 
     @property
     def points(self) -> Program:
-        """What does not depend on the ball."""
+        """The program of what does not depend on the ball."""
         return self.cut.columns
 
     @property
     def each_ball(self) -> Program:
-        """What each ball has; its inputs are :attr:`tables`."""
+        """The program of what each ball has; its inputs are :attr:`tables`."""
         return self.cut.points
 
     @property
     def behind(self) -> Program:
-        """What follows from the results of the reductions, its last inputs."""
+        """The program of what follows from the results of the reductions, its last inputs."""
         return self.stages.behind
 
     @property

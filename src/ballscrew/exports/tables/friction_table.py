@@ -92,7 +92,7 @@ class FrictionTable:
         return float(ideal[end] / load[end])
 
     def at(self, points: Values) -> dict[str, NDArray[Any]]:
-        """What a program computes with the table at points: the friction, and the torques made of it.
+        """Outputs at points as a program computes them with the table: the friction, and the torques made of it.
 
         Beyond the axes the nearest value counts. A point is valid where all nodes around it are.
         """
@@ -274,7 +274,7 @@ def _along(evaluate: _Evaluate, name: str, candidates: Mapping[str, Floats]) -> 
 
 
 def _scale(friction: Floats, valid: NDArray[np.bool_]) -> Floats:
-    """What an error is a share of."""
+    """The size that an error is a share of."""
     largest = float(np.abs(friction).max())
     return np.where(valid, np.maximum(np.abs(friction), LEAST_SHARE * largest), largest)
 

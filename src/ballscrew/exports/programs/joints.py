@@ -1,4 +1,8 @@
-"""``--to mujoco``: joint parameters that know no load, an engine plugin that knows it, and an axis to try both."""
+"""Joints of simulators: ``--to mujoco`` and ``--to urdf``.
+
+MuJoCo gets joint parameters that know no load, an engine plugin that knows it, and an axis to try both; URDF, SDF and
+USD dry friction and damping of a prismatic joint.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +19,7 @@ from ballscrew.exports.programs.joint_friction import (
     joint_errors,
     joint_export,
     joint_friction,
+    joint_range,
     options_of_case,
     provenance_line,
 )
@@ -32,9 +37,11 @@ axis.json has the numbers of both. The gear is 2 pi / lead = {arm!r} 1/m.
 """
 #: Impedance of dry friction: with the usual one of MuJoCo a joint creeps a thousand times as fast at rest.
 HARD = "0.9999 0.9999 0.001"
+#: Edge of the cube that stands for what moves, m: its inertia is nowhere needed and everywhere asked for.
+EDGE = 0.2
 
 
-def export(job: HandOver) -> Export:
+def mujoco(job: HandOver) -> Export:
     """Sources of the plugin with their Makefile, two axes in MJCF, their numbers as JSON, and a script that runs them.
 
     Raises :class:`~ballscrew.basis.errors.InputError` without a load, where the model has no friction at it, and for a
@@ -64,11 +71,11 @@ def export(job: HandOver) -> Export:
 
 _POLYNOMIAL = Option(True, "damping with powers of the speed (MuJoCo 3.7 or newer); no: linear, for any version")
 _PLUGIN = Option("ballscrew.friction", "name of the plugin: give each screw of a simulation its own")
-MUJOCO = Target(export, {**JOINT_OPTIONS, "polynomial": _POLYNOMIAL, "plugin": _PLUGIN}, options_of_case)
+MUJOCO = Target(mujoco, {**JOINT_OPTIONS, "polynomial": _POLYNOMIAL, "plugin": _PLUGIN}, options_of_case)
 
 
 def _axis_words(joint: JointFriction) -> str:
-    """What moves, in words, with what is assumed of it."""
+    """The axis in words: what moves, and what is assumed of it."""
     angle = math.degrees(joint.inclination)
     balance = f", balanced by {joint.counterforce:.4g} N" if joint.counterforce else ""
     moves = f"The axis moves {joint.mass:.4g} kg at {angle:.4g} deg above the horizontal{balance}."
@@ -86,7 +93,7 @@ def _axis(job: HandOver, joint: JointFriction) -> dict[str, str]:
 
 
 def _is_balanced(joint: JointFriction) -> bool:
-    """Whether the force that balances the weight can be a share of it, as it is in MJCF."""
+    """Return whether the force that balances the weight can be a share of it, as it is in MJCF."""
     return joint.weight != 0
 
 
@@ -130,4 +137,42 @@ def _plugin_axis(job: HandOver, joint: JointFriction) -> dict[str, str]:
             "  <sensor>\n    <!-- axial load, friction, accelerating torque, 1 where the model holds -->\n"
             '    <plugin name="screw" instance="screw"/>\n  </sensor>\n'
         ),
+    }
+
+
+def urdf(job: HandOver) -> Export:
+    """An axis in URDF, SDF and USD, and its numbers as JSON.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` without a load, and where the model has no friction at it.
+    """
+    joint = joint_friction(job, 1)
+    errors = joint_errors(job, joint)
+    values = _urdf_values(job, joint, errors)
+    files = {name: filled(name, **values) for name in ("axis.urdf", "axis.sdf", "axis.usda")}
+    return joint_export(job, "urdf", joint, errors, files, balances=False, valid_range=joint_range(job))
+
+
+URDF = Target(urdf, JOINT_OPTIONS, options_of_case)
+
+
+def _urdf_values(job: HandOver, joint: JointFriction, errors: JointErrors) -> dict[str, str | float]:
+    low, high = joint.speeds
+    note = f"{errors.text}. Fitted from {low:g} to {high:g} rad/s of the shaft."
+    # the quaternion that turns the upward direction into that of positive motion, about the second axis
+    half = (math.pi / 2 - joint.inclination) / 2
+    return {
+        "provenance": provenance_line(job),
+        "note": " ".join([note, *(f"Beware: {record.text}." for record in joint.warnings(balances=False))]),
+        "direction": joint.direction_text,
+        "turn": f"{math.cos(half)!r}, 0, {math.sin(half)!r}, 0",
+        "mass": float(joint.mass),
+        "inertia": float(joint.mass * EDGE**2 / 6),
+        "effort": float(max(map(abs, job.working_range[OPERATION[0]])) + joint.dry),
+        "velocity": float(high / joint.arm),
+        "damping": float(joint.damping[0]),
+        "friction": float(joint.dry),
+        "static": float(max(joint.at_rest * joint.arm, joint.dry)),
+        "armature": float(joint.armature),
+        "rotor": float(joint.inertia),
+        "arm": float(joint.arm),
     }

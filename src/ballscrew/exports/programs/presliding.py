@@ -115,7 +115,7 @@ class Presliding:
 
     @property
     def warning(self) -> Record:
-        """That it is a hypothesis."""
+        """The warning that it is a hypothesis."""
         load = units.shown(self.axial_load, _LOAD, 3)
         speed = units.shown(self.screw_speed, _SPEED, 3)
         off = units.percent(self.fit.error.largest)
