@@ -249,7 +249,7 @@ class ValidationSet:
     @property
     def calibrations(self) -> list[str]:
         """The calibrations that were fitted to the torques of these rows."""
-        return [name for name, found in calibrations().items() if self.calibratable and self.file in found.data]
+        return [name for name, each in calibrations().items() if self.calibratable and self.file in each.data]
 
     @property
     def description(self) -> str:
@@ -398,9 +398,9 @@ def _share(inside: Sequence[bool | None]) -> float | None:
     return sum(known) / len(known) if known else None
 
 
-def _means(found: Sequence[Mapping[str, float]]) -> dict[str, float]:
-    names = [name for name in (found[0] if found else ()) if all(name in one for one in found)]
-    return {name: mean([one[name] for one in found]) for name in names}
+def _means(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    names = [name for name in (rows[0] if rows else ()) if all(name in one for one in rows)]
+    return {name: mean([one[name] for one in rows]) for name in names}
 
 
 #: The descriptors of :func:`exponents`.
@@ -418,8 +418,8 @@ def exponents(points: Sequence[Point], ratios: Sequence[float]) -> dict[str, flo
     matrix = np.column_stack([np.ones(len(points)), *columns])
     if np.linalg.matrix_rank(matrix, tol=1e-6) < matrix.shape[1] or min(ratios) <= 0:
         return {}
-    found, *_ = np.linalg.lstsq(matrix, np.log(ratios))
-    return {name: float(value) for name, value in zip(EXPONENTS, found[1:], strict=True)}
+    result, *_ = np.linalg.lstsq(matrix, np.log(ratios))
+    return {name: float(value) for name, value in zip(EXPONENTS, result[1:], strict=True)}
 
 
 # -- which effect is missing ----------------------------------------------------------------------
@@ -441,7 +441,7 @@ def trends(points: Sequence[Point]) -> list[Trend]:
     Descriptors that do not vary are left out. Sizes, balls and leads of real screws grow together: an effect of one
     shows in all of them.
     """
-    found: list[Trend] = []
+    result: list[Trend] = []
     log_ratio = np.log([point.ratio for point in points])
     for name in DESCRIPTORS:
         values = [point.descriptors[name] for point in points if name in point.descriptors]
@@ -453,5 +453,5 @@ def trends(points: Sequence[Point]) -> list[Trend]:
         left = y - exponent * x
         error = math.sqrt(float(left @ left) / (len(points) - 2) / float(x @ x))
         scatter = math.sqrt(float(x @ x) * float(y @ y))
-        found.append(Trend(name, exponent, 2 * error, float(x @ y) / scatter if scatter else math.nan))
-    return sorted(found, key=lambda trend: -abs(trend.correlation))
+        result.append(Trend(name, exponent, 2 * error, float(x @ y) / scatter if scatter else math.nan))
+    return sorted(result, key=lambda trend: -abs(trend.correlation))

@@ -75,14 +75,14 @@ def _ratios() -> Sequence[Mapping[str, str]]:
 @functools.cache
 def _bands(data: str) -> Mapping[str, tuple[float, float]]:
     """The no-load torques of a vendor's rows, least and greatest, by the names that the stored ratios have."""
-    found: dict[str, tuple[float, float]] = {}
+    bands: dict[str, tuple[float, float]] = {}
     for row in _read(data):
         sizes = "x".join(row[f"{name}_mm"] for name in ("nominal_diameter", "lead", "ball_diameter"))
         for column, least in row.items():
             if (share := _LEAST.fullmatch(column)) is not None:
                 greatest = float(row[column.replace("_min_", "_max_")])
-                found[f"{sizes}-{row['circuits']} at {share[1]} %"] = float(least), greatest
-    return found
+                bands[f"{sizes}-{row['circuits']} at {share[1]} %"] = float(least), greatest
+    return bands
 
 
 def _read(data: str) -> Sequence[Mapping[str, str]]:

@@ -100,9 +100,9 @@ def _unloaded(
 ) -> tuple[OperatingPoint, FrictionResult, dict[str, float]]:
     """A nut without load at these conditions, its result, and what its row is like."""
     at = OperatingPoint(row.screw(nut=nut), conditions.lubricant, 0.0, conditions.screw_speed)
-    found = model(at.screw, at.lubricant, axial_load=at.axial_load, screw_speed=at.screw_speed)
-    film = float(np.min([np.min(pair.screw.film_parameter) for pair in found.pairs]))
-    return at, found, {**_descriptors(row), "film_parameter": film}
+    result = model(at.screw, at.lubricant, axial_load=at.axial_load, screw_speed=at.screw_speed)
+    film = float(np.min([np.min(pair.screw.film_parameter) for pair in result.pairs]))
+    return at, result, {**_descriptors(row), "film_parameter": film}
 
 
 def _drag_laws(
@@ -140,15 +140,15 @@ def _no_load_point(
     **more: Any,
 ) -> Point:
     """The torque of a preloaded nut without load beside a stated one; ``more`` describes the row further."""
-    at, found, descriptors = _unloaded(model, row, nut, conditions)
+    at, result, descriptors = _unloaded(model, row, nut, conditions)
     two_contacts, preload = nut.contacts_per_ball == 2, float(nut.preload or 0.0)
     return Point(
         name=name or row.name,
-        value=float(found.screw_torque),
+        value=float(result.screw_torque),
         band=band,
         descriptors={**descriptors, **more},
         laws=_drag_laws(model, row, preload, conditions, band.middle, two_contacts, with_model),
-        warnings=found.warning_records,
+        warnings=result.warning_records,
         group=group or (DOUBLE if two_contacts else SINGLE),
         computed_at=at,
     )
@@ -286,22 +286,22 @@ def chart_friction(model: FrictionModel, values: Values, conditions: Conditions)
     """Friction coefficient of the thread at a tenth of the rating, against the lines of vendors' charts."""
     row, at = screw_of(values), conditions.of(values)
     load = CHART_LOAD * float(values["dynamic_load_rating"])
-    found = model(row.screw(), at.lubricant, axial_load=load, screw_speed=at.screw_speed)
+    result = model(row.screw(), at.lubricant, axial_load=load, screw_speed=at.screw_speed)
     low, middle, high = CHART_LINES
     subject = Subject(row.nominal_diameter, row.ball_circle, row.lead, axial_load=load)
     etas = {name: RULES[name].estimate(subject).efficiency(subject.ideal_torque) for name in LOADED_RULES}
-    film = float(np.min([np.min(pair.screw.film_parameter) for pair in found.pairs]))
+    film = float(np.min([np.min(pair.screw.film_parameter) for pair in result.pairs]))
     return [
         Point(
             name=row.name,
-            value=float(found.friction_coefficient),
+            value=float(result.friction_coefficient),
             band=Band(middle, low, high),
             descriptors={**_descriptors(row), "film_parameter": film},
             laws={
                 name: float(transmission.friction_coefficient(row.lead_angle, eta)) / middle
                 for name, eta in etas.items()
             },
-            warnings=found.warning_records,
+            warnings=result.warning_records,
         )
     ]
 
@@ -312,19 +312,19 @@ def chart_friction(model: FrictionModel, values: Values, conditions: Conditions)
 def ratings(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
     """Dynamic load rating by geometry, the static one beside it, and both with one ball less a turn."""
     row = screw_of(values)
-    found, z = ratings_of(row), row.balls_per_turn
+    result, z = ratings_of(row), row.balls_per_turn
     dynamic, static = float(values["dynamic_load_rating"]), float(values["static_load_rating"])
     fewer = (z - 1) / z
     return [
         Point(
             name=row.name,
-            value=found.dynamic,
+            value=result.dynamic,
             band=Band(dynamic),
             descriptors=_descriptors(row),
             definitions={
-                "static": found.static / static,
-                "one_ball_less": found.dynamic * fewer ** (2 / 3) / dynamic,
-                "static_one_ball_less": found.static * fewer / static,
+                "static": result.static / static,
+                "one_ball_less": result.dynamic * fewer ** (2 / 3) / dynamic,
+                "static_one_ball_less": result.static * fewer / static,
             },
         )
     ]
@@ -428,22 +428,22 @@ def rigidity_of_double_nuts(model: FrictionModel, values: Values, conditions: Co
         listed, preload = float(values[column]), _preloaded(values, percent)
         screw = row.screw(nut=DoubleNut(preload=preload))
         bodies = Bodies(nut_outer_diameter=row.nut_outer_diameter)
-        found = rigidity_iso3408(
+        result = rigidity_iso3408(
             screw,
             nominal_diameter=row.nominal_diameter,
             nut_outer_diameter=row.nut_outer_diameter,
             accuracy_factor=ACCURACY_FACTOR,
         )
         definitions = {
-            "uncorrected": found.nut,
-            **{f"factor_{factor:g}": factor * found.nut for factor in OTHER_FACTORS},
+            "uncorrected": result.nut,
+            **{f"factor_{factor:g}": factor * result.nut for factor in OTHER_FACTORS},
             "rigid_bodies": _tangent(screw, preload, None),
             "elastic_bodies": _tangent(screw, preload, bodies),
         }
         points.append(
             Point(
                 name=f"{row.name} at {percent} %",
-                value=float(found.nut_corrected),
+                value=float(result.nut_corrected),
                 band=Band(listed),
                 descriptors={**_descriptors(row), "preload_share": percent / 100},
                 definitions={name: float(value) / listed for name, value in definitions.items()},
@@ -474,7 +474,7 @@ def support_bearing(model: FrictionModel, values: Values, conditions: Conditions
         preload=preload,
         model=model,
     )
-    found, slow = (pair(OperatingState(0.0, speed)) for speed in (at.screw_speed, _SLOW))
+    result, slow = (pair(OperatingState(0.0, speed)) for speed in (at.screw_speed, _SLOW))
     torque = float(values["torque"])
     return [
         Point(
@@ -483,10 +483,10 @@ def support_bearing(model: FrictionModel, values: Values, conditions: Conditions
             band=Band(float(values["rigidity"])),
             descriptors={"bore": float(pair.bore), "preload": preload},
             definitions={
-                "torque": float(found.friction_effort) / torque,
+                "torque": float(result.friction_effort) / torque,
                 "torque_at_10_rpm": float(slow.friction_effort) / torque,
             },
-            warnings=found.warning_records,
+            warnings=result.warning_records,
             group=str(values["maker"]),
         )
     ]

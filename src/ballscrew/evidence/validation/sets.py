@@ -100,8 +100,8 @@ _CHOSEN_ON_REXROTH = (
 )
 
 SETS: Mapping[str, ValidationSet] = {
-    found.name: found
-    for found in (
+    each.name: each
+    for each in (
         ValidationSet(
             name="rexroth-double-nut",
             title="no-load torque of double nuts",

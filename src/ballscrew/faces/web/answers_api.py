@@ -172,8 +172,8 @@ def _problem(error: InputError | Refused) -> dict[str, Any]:
     return problems.document(error.status if isinstance(error, Refused) else 422, error.faults)
 
 
-def _written(question: str, place: int, **found: Any) -> bytes:
-    return as_bytes({"question": question, "place": place, **found}) + b"\n"
+def _written(question: str, place: int, **result: Any) -> bytes:
+    return as_bytes({"question": question, "place": place, **result}) + b"\n"
 
 
 class _Asked:
@@ -192,15 +192,15 @@ class _Asked:
 
     async def run(self) -> dict[str, Any]:
         """The document of the run. Raises :class:`~ballscrew.basis.errors.InputError` for what is no case."""
-        self._found, document = await of_tables(self.queue, self.tables, lambda found: (found, documents.run(found)))
+        self._found, document = await of_tables(self.queue, self.tables, lambda result: (result, documents.run(result)))
         return document
 
     async def checks(self) -> dict[str, Any]:
         """The document of the checks, with the nut named that the case lacks."""
         tables, notes = with_nut_named(self.tables)
         if tables != self.tables:
-            return await of_tables(self.queue, tables, lambda found: documents.check(found, notes))
-        return await self._of_run(lambda found: documents.check(found, notes))
+            return await of_tables(self.queue, tables, lambda result: documents.check(result, notes))
+        return await self._of_run(lambda result: documents.check(result, notes))
 
     async def drawing(self) -> dict[str, Any]:
         """The drawing."""
@@ -228,8 +228,8 @@ class _Asked:
 
     async def _of_run(self, work: Callable[[Run], dict[str, Any]]) -> dict[str, Any]:
         """Work on the run: quick, unless many balls are computed one by one."""
-        found = self.found
-        if limits.balls_of(found.case) > limits.MANY_BALLS:
+        result = self.found
+        if limits.balls_of(result.case) > limits.MANY_BALLS:
             self._is_heavy = True
-            return await self.queue.heavy(lambda _: work(found))
-        return await self.queue.quick(lambda: work(found))
+            return await self.queue.heavy(lambda _: work(result))
+        return await self.queue.quick(lambda: work(result))

@@ -196,12 +196,12 @@ async def content_of(request: Request, most: int) -> bytes:
     length = request.headers.get("content-length", "0")
     if length.isdecimal() and int(length[:10]) > most:
         raise too_large
-    found = bytearray()
+    result = bytearray()
     try:
         with anyio.fail_after(READ_TIMEOUT):
             async for chunk in request.stream():
-                found += chunk
-                if len(found) > most:
+                result += chunk
+                if len(result) > most:
                     raise too_large
     except TimeoutError:
         raise Refused(
@@ -213,7 +213,7 @@ async def content_of(request: Request, most: int) -> bytes:
         ) from None
     except ClientDisconnect:
         raise Refused(400, Fault("request", "was interrupted")) from None  # no client is left to read it
-    return bytes(found)
+    return bytes(result)
 
 
 def _json(body: bytes) -> Any:
@@ -236,18 +236,18 @@ def _no_number(name: str) -> NoReturn:
 
 def _number(text: str) -> float:
     """A finite number; JSON would make 1e999 infinite."""
-    if not math.isfinite(found := float(text)):
+    if not math.isfinite(number := float(text)):
         raise ValueError(f"{text[:40]} is too large for a number")
-    return found
+    return number
 
 
 def _table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """A table without repeated names, as in a case file; JSON would keep the last one."""
-    found = dict(pairs)
-    if len(found) < len(pairs):
+    table = dict(pairs)
+    if len(table) < len(pairs):
         names = [name for name, _ in pairs]
         raise ValueError(f"{next(name for name in names if names.count(name) > 1)[:40]} is given twice")
-    return found
+    return table
 
 
 def _count(value: Any, most: int) -> None:

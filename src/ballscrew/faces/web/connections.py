@@ -96,12 +96,12 @@ class _TimeoutProtocol(H11Protocol):
                 "",
                 f"{LONGEST_HEAD} bytes at most",
             )
-            found = problems.response(400, [fault])
+            response = problems.response(400, [fault])
             # no middleware sees this response
-            found.headers.update({**HEADERS, "Cache-Control": "no-store", "Connection": "close"})
+            response.headers.update({**HEADERS, "Cache-Control": "no-store", "Connection": "close"})
             for event in (
-                h11.Response(status_code=400, headers=found.raw_headers, reason="Bad Request"),
-                h11.Data(data=b"" if is_head else bytes(found.body)),
+                h11.Response(status_code=400, headers=response.raw_headers, reason="Bad Request"),
+                h11.Data(data=b"" if is_head else bytes(response.body)),
                 h11.EndOfMessage(),
             ):
                 self.transport.write(self.conn.send(event) or b"")

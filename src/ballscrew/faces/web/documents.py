@@ -28,51 +28,51 @@ def run_of(case: case_file.Case, tables: Mapping[str, Any]) -> runs.Run:
     """The run of a case that was made of these tables; of the same tables again it is not computed again."""
     key = json.dumps(tables, default=repr)
     with _runs_lock:
-        found = _runs.get(key)
-    if found is None:
-        found = runs.run(case)
+        result = _runs.get(key)
+    if result is None:
+        result = runs.run(case)
         with _runs_lock:
-            _runs[key] = found
+            _runs[key] = result
             if len(_runs) > _MOST_RUNS:
                 _runs.popitem(last=False)
-    return found
+    return result
 
 
-def run(found: runs.Run) -> dict[str, Any]:
+def run(result: runs.Run) -> dict[str, Any]:
     """The document of a run, and its sentences."""
-    case, document = found.case, run_documents.document(found)
-    rigidity = () if found.nut is None else found.nut.rigidity.assumed
+    case, document = result.case, run_documents.document(result)
+    rigidity = () if result.nut is None else result.nut.rigidity.assumed
     return {
         **document,
         "words": {
             "title": descriptions.title(case),
             "verdicts": [record["text"] for record in document["verdicts"]],
-            "assumed": descriptions.assumed(case, found.ball_to_ball_force),
+            "assumed": descriptions.assumed(case, result.ball_to_ball_force),
             "rigidity": list(rigidity),
-            "rules": makers.messages(case, found.nut),
+            "rules": makers.messages(case, result.nut),
         },
     }
 
 
-def check(found: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
+def check(result: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
     """The document of the checks of a run; a request has no name."""
-    document = check_documents.document(checks.checked("", found.case, notes, known=found))
+    document = check_documents.document(checks.checked("", result.case, notes, known=result))
     return {key: value for key, value in document.items() if key != "name"}
 
 
-def drawing(found: runs.Run) -> dict[str, Any]:
+def drawing(result: runs.Run) -> dict[str, Any]:
     """The ball between its grooves, as SVG."""
     from ballscrew.faces.report.drawing import drawing as drawn
 
-    return {"text": drawn(found)}
+    return {"text": drawn(result)}
 
 
-def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
+def band(case: case_file.Case, band_report: bands.BandReport) -> dict[str, Any]:
     """The document of a band, and its sentences."""
     return {
-        **band_documents.document(runs.run(case), found),
+        **band_documents.document(runs.run(case), band_report),
         "words": {
-            "sentences": [verdict.text for verdict in band_documents.verdicts(case, found)],
-            "inputs": input_counts(found),
+            "sentences": [verdict.text for verdict in band_documents.verdicts(case, band_report)],
+            "inputs": input_counts(band_report),
         },
     }

@@ -84,11 +84,11 @@ def sent(document: bytes) -> Response:
 def kept(request: Request, document: bytes) -> Response:
     """An answer with a document that is JSON already and always the same; compressed, where the client takes that."""
     packed = takes_gzip(request.headers)
-    found = sent(_packed(document) if packed else document)
-    found.headers["Vary"] = "Accept-Encoding"
+    response = sent(_packed(document) if packed else document)
+    response.headers["Vary"] = "Accept-Encoding"
     if packed:
-        found.headers["Content-Encoding"] = "gzip"
-    return found
+        response.headers["Content-Encoding"] = "gzip"
+    return response
 
 
 @functools.lru_cache(maxsize=16)
@@ -104,8 +104,8 @@ def takes_gzip(headers: Headers) -> bool:
 
 def queue_of(request: Request) -> RequestQueue:
     """The queue of requests of the application."""
-    found: RequestQueue = request.app.state.requests
-    return found
+    queue: RequestQueue = request.app.state.requests
+    return queue
 
 
 def always(_: object) -> bool:
@@ -180,10 +180,10 @@ async def computed_once(request: Request, work: Callable[[], Coroutine[Any, Any,
     known = answers.find(question)
     if known is not None:
         return sent(known)
-    found: Response = await cancellable(request, work())
-    if found.media_type == _JSON:
-        answers.keep(question, bytes(found.body))
-    return found
+    response: Response = await cancellable(request, work())
+    if response.media_type == _JSON:
+        answers.keep(question, bytes(response.body))
+    return response
 
 
 async def cancellable(request: Request, work: Coroutine[Any, Any, Any]) -> Any:

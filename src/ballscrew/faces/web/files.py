@@ -34,20 +34,20 @@ class _Folder(StaticFiles):
         self, full_path: str | os.PathLike[str], stat_result: os.stat_result, scope: Scope, status_code: int = 200
     ) -> Response:
         """The file, or status 304 where the browser has it."""
-        found = super().file_response(full_path, stat_result, scope, status_code)
-        found.headers["Cache-Control"] = _CACHE
+        file_response = super().file_response(full_path, stat_result, scope, status_code)
+        file_response.headers["Cache-Control"] = _CACHE
         is_text = str(full_path).endswith(_TEXTS)
         if is_text:
-            found.headers["Vary"] = "Accept-Encoding"
-        if not is_text or isinstance(found, NotModifiedResponse) or not takes_gzip(Headers(scope=scope)):
-            return found
-        headers = {name: found.headers[name] for name in ("etag", "last-modified", "cache-control", "vary")}
+            file_response.headers["Vary"] = "Accept-Encoding"
+        if not is_text or isinstance(file_response, NotModifiedResponse) or not takes_gzip(Headers(scope=scope)):
+            return file_response
+        headers = {name: file_response.headers[name] for name in ("etag", "last-modified", "cache-control", "vary")}
         packed = _packed_file(str(full_path), stat_result.st_mtime_ns)
         return Response(
             packed,
             status_code,
             {**headers, "Content-Encoding": "gzip", "ETag": f"W/{headers['etag']}"},
-            media_type=found.media_type,
+            media_type=file_response.media_type,
         )
 
 
@@ -67,13 +67,13 @@ def add_to(app: FastAPI) -> None:
         request: Request, content: bytes, packed: bytes, tag: str, headers: dict[str, str], media: str
     ) -> Response:
         takes = takes_gzip(request.headers)
-        found = Response(packed if takes else content, media_type=media)
-        found.headers.update({**headers, "ETag": f'"{tag}"'})
-        if viewer.is_not_modified(found.headers, request.headers):
-            return NotModifiedResponse(found.headers)
+        sent = Response(packed if takes else content, media_type=media)
+        sent.headers.update({**headers, "ETag": f'"{tag}"'})
+        if viewer.is_not_modified(sent.headers, request.headers):
+            return NotModifiedResponse(sent.headers)
         if takes:
-            found.headers.update({"Content-Encoding": "gzip", "ETag": f'W/"{tag}"'})
-        return found
+            sent.headers.update({"Content-Encoding": "gzip", "ETag": f'W/"{tag}"'})
+        return sent
 
     async def send_page(request: Request) -> Response:
         headers = {"Cache-Control": _CACHE, "Vary": "Accept-Encoding"}
@@ -102,7 +102,7 @@ def _packed_file(path: str, changed: int) -> bytes:  # noqa: ARG001  (of a file 
 
 def _folder_of(package: str, folder: str) -> Path:
     """A folder of an installed package, without importing it."""
-    found = importlib.util.find_spec(package)
-    assert found is not None, package
-    assert found.origin is not None, package
-    return Path(found.origin).parent / folder
+    result = importlib.util.find_spec(package)
+    assert result is not None, package
+    assert result.origin is not None, package
+    return Path(result.origin).parent / folder

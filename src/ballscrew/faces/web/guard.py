@@ -60,5 +60,5 @@ class Guard:
         if "*" in self.hosts or _PORT.sub("", host).lower() in self.hosts:
             await self.inner(scope, receive, send_with_headers)
         else:
-            found = problems.response(421, [Fault("Host", "is not a name of this server", host[:80])])
-            await found(scope, receive, send_with_headers)
+            response = problems.response(421, [Fault("Host", "is not a name of this server", host[:80])])
+            await response(scope, receive, send_with_headers)

@@ -45,10 +45,10 @@ async def start(
     body = await content_of(request, MOST_LOG_BYTES)
     jobs = _jobs_of(request)
     job = jobs.begin(address, urlencode({"kind": kind}) if kind else "", body)
-    found = _document(jobs, job, 0)
-    found.status_code = 202
-    found.headers["Location"] = f"/api/v1/jobs/{job.id}"
-    return found
+    document = _document(jobs, job, 0)
+    document.status_code = 202
+    document.headers["Location"] = f"/api/v1/jobs/{job.id}"
+    return document
 
 
 @router.get("/{id}", response_model=file_answers.Job, responses=openapi.problems_of(404))
@@ -71,10 +71,10 @@ async def state(
 )
 async def answer(request: Request, id: _Id) -> Response:
     """The answer of a job that has ended: what its address answers, a refusal with its status, or a file."""
-    found = _jobs_of(request).named(id).answer
-    if found is None:
+    result = _jobs_of(request).named(id).answer
+    if result is None:
         raise Refused(409, Fault("job", "has not ended", "", "ask how far it is, and wait"))
-    return Response(found.body, found.status, media_type=found.media_type)
+    return Response(result.body, result.status, media_type=result.media_type)
 
 
 @router.delete("/{id}", response_model=file_answers.Job, responses=openapi.problems_of(404))
@@ -87,8 +87,8 @@ async def cancel(request: Request, id: _Id) -> Response:
 
 
 def _jobs_of(request: Request) -> Jobs:
-    found: Jobs = request.app.state.jobs
-    return found
+    jobs: Jobs = request.app.state.jobs
+    return jobs
 
 
 def _document(jobs: Jobs, job: Job, known: int) -> Response:

@@ -110,16 +110,16 @@ class Process:
     def message(self) -> Message | None:
         """The next message; None once the process has ended. It waits, in a thread of its own."""
         try:
-            found: Message | int = pickle.load(self._messages)
-            while isinstance(found, int):  # the process says first who it is
+            message: Message | int = pickle.load(self._messages)
+            while isinstance(message, int):  # the process says first who it is
                 with self._lock:
-                    self._pid = found
+                    self._pid = message
                     if self._ended:
-                        self._kill(found)
-                found = pickle.load(self._messages)
+                        self._kill(message)
+                message = pickle.load(self._messages)
         except (EOFError, OSError, pickle.UnpicklingError):  # killed meanwhile, perhaps within a message
             return None
-        return found
+        return message
 
     @property
     def has_begun(self) -> bool:

@@ -274,5 +274,5 @@ def _refused(refused: Refused) -> Answer:
 
 
 def _problem(status: int, *faults: Fault) -> Answer:
-    found = problems.response(status, faults)
-    return Answer(status, problems.MEDIA_TYPE, bytes(found.body))
+    response = problems.response(status, faults)
+    return Answer(status, problems.MEDIA_TYPE, bytes(response.body))

@@ -103,15 +103,15 @@ async def code(
     request: Request, file: Annotated[str, Path(description="of the answer", examples=[_SOLVER])]
 ) -> Response:
     """A module as WebAssembly; its name follows from its bytes."""
-    found = _modules_of(request).code(file)
-    if found is None:
+    result = _modules_of(request).code(file)
+    if result is None:
         raise Refused(404, Fault("/modules/", "no such module", file[:80], "ask for the module of the case again"))
-    return Response(found, media_type="application/wasm", headers={"Cache-Control": FOR_GOOD})
+    return Response(result, media_type="application/wasm", headers={"Cache-Control": FOR_GOOD})
 
 
 def _modules_of(request: Request) -> Modules:
-    found: Modules = request.app.state.modules
-    return found
+    modules: Modules = request.app.state.modules
+    return modules
 
 
 def _answer(modules: Modules, tables: Tables) -> dict[str, Any]:
@@ -193,10 +193,10 @@ def _place(name: str, quantity: Quantity) -> dict[str, Any]:
 
 def _at(tables: Mapping[str, Any], path: str) -> Any:
     """What stands at a path in tables; None where nothing does."""
-    found: Any = tables
+    result: Any = tables
     for key in path.split("."):
-        found = found.get(key) if isinstance(found, dict) else None
-    return found
+        result = result.get(key) if isinstance(result, dict) else None
+    return result
 
 
 def _axes(is_nut: bool) -> dict[str, Any]:

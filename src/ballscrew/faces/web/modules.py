@@ -141,10 +141,10 @@ def _name(subject: Configuration) -> str:
         raise NotMadeError("the preload was set at rest, and follows the friction of the balls")
     bodies = nut.bodies
     sizes = bodies and (bodies.screw_diameter, bodies.nut_inner_diameter, bodies.same_side, bodies.swelling)
-    found = name_of(f"module for browsers {sizes}", subject, SHOWN, inputs_of_structure(subject))
-    if found is None:
+    name = name_of(f"module for browsers {sizes}", subject, SHOWN, inputs_of_structure(subject))
+    if name is None:
         raise NotMadeError("a law is not of this package")
-    return found
+    return name
 
 
 def _oils() -> KeptModule:

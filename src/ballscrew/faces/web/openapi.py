@@ -52,15 +52,15 @@ def text(*media: str) -> dict[int | str, dict[str, Any]]:
 
 def document(app: FastAPI) -> dict[str, Any]:
     """The OpenAPI document: that of the routes, with the case file that they refer to."""
-    found = get_openapi(title=app.title, version=app.version, routes=app.routes, summary=_SUMMARY)
+    values = get_openapi(title=app.title, version=app.version, routes=app.routes, summary=_SUMMARY)
     case = _moved(json_schema())
     parts = case.pop("$defs")
     case.pop("$schema")
-    schemas = found.setdefault("components", {}).setdefault("schemas", {})
+    schemas = values.setdefault("components", {}).setdefault("schemas", {})
     assert not parts.keys() & schemas.keys()  # two parts of one name
     assert Problem.__name__ in schemas  # it is part of an answer
     schemas.update({**parts, _CASE: case})
-    return found
+    return values
 
 
 def _moved(schema: Any) -> Any:

@@ -93,9 +93,9 @@ async def _no_memory(request: Request, _: Exception) -> Response:
 
 async def _http_error(_: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
-    found = problems.response(error.status_code, [Fault("request", str(error.detail))])
-    found.headers.update(error.headers or {})
-    return found
+    http_error = problems.response(error.status_code, [Fault("request", str(error.detail))])
+    http_error.headers.update(error.headers or {})
+    return http_error
 
 
 async def _invalid(_: Request, error: Exception) -> Response:

@@ -27,14 +27,14 @@ _MOVING: Mapping[str, str] = {
 @functools.cache
 def starts() -> dict[str, Any]:
     """Cases to start from, by name; those that move have a motion."""
-    found: dict[str, Any] = {
+    values: dict[str, Any] = {
         "paper": {"title": "the screw of Olaru et al. (2005)", "moves": False, "case": _paper()},
     }
     folder = resources.files("ballscrew").joinpath("data/starts")
     for name, title in _MOVING.items():
         tables = tomllib.loads(folder.joinpath(f"{name}.toml").read_text(encoding="utf-8"))
-        found[name.replace("_", "-")] = {"title": title, "moves": True, "case": tables}
-    return found
+        values[name.replace("_", "-")] = {"title": title, "moves": True, "case": tables}
+    return values
 
 
 #: Cases to which logs belong, by the question: all of them are examples of the repository.
@@ -79,9 +79,9 @@ def _paper() -> dict[str, Any]:
 def _written(part: Any, cls: type) -> dict[str, Any]:
     """The numbers of a part that have no default, or another value than that, as they are written in a file."""
     usual = {name: getattr(cls, name, None) for name in fields_of(cls)}
-    found = {name: getattr(part, name) for name in fields_of(cls)}
+    values = {name: getattr(part, name) for name in fields_of(cls)}
     return {
         name: value if fields_of(cls)[name].unit == "1" else units.written(value, fields_of(cls)[name])
-        for name, value in found.items()
+        for name, value in values.items()
         if value is not None and value != usual[name]
     }

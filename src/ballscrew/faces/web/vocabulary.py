@@ -219,8 +219,8 @@ def _units() -> dict[str, Any]:
 def _symbols() -> dict[str, str]:
     """The symbols of units by their names, where they differ."""
     known = {one["unit"] for choices in _units().values() for one in choices}
-    found = {unit: units.symbol(unit) for unit in sorted(known | {*_INCHES, *_INCHES.values()})}
-    return {unit: symbol for unit, symbol in found.items() if symbol != unit}
+    values = {unit: units.symbol(unit) for unit in sorted(known | {*_INCHES, *_INCHES.values()})}
+    return {unit: symbol for unit, symbol in values.items() if symbol != unit}
 
 
 def _unit(unit: str, si: str) -> dict[str, Any]:

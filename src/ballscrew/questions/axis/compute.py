@@ -70,9 +70,9 @@ class ChainReport:
     @lazy
     def series(self) -> Mapping[str, Numbers]:
         """Numbers over the place of the nut in SI, as :data:`SERIES` has them; infinite where a spring is not known."""
-        found: dict[str, Any] = {name: getattr(self.chain, name) for name in SERIES if name != LOST_MOTION.name}
-        found[LOST_MOTION.name] = self.chain.lost_motion(self.guide_friction)
-        return {name: found[name] for name in SERIES}
+        values: dict[str, Any] = {name: getattr(self.chain, name) for name in SERIES if name != LOST_MOTION.name}
+        values[LOST_MOTION.name] = self.chain.lost_motion(self.guide_friction)
+        return {name: values[name] for name in SERIES}
 
     @lazy
     def shown(self) -> Sequence[int]:
@@ -201,7 +201,7 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
     ends = travel or (SHARES[0] * length, SHARES[-1] * length)
     places = positions or np.unique(np.concatenate([length * SHARES, np.linspace(*ends, SHOWN)]))
     sizes: dict[str, Any] = case.sizes_of_nut(case.screw)
-    found = stiffness_over_stroke(
+    stiffness = stiffness_over_stroke(
         case.screw,
         installation=installation,
         positions=np.asarray(places, dtype=float),
@@ -222,14 +222,14 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
         words.append("no lost motion: the friction of the guides is not given ([guides])")
     return ChainReport(
         case,
-        found,
+        stiffness,
         (float(ends[0]), float(ends[1])),
         travel is not None,
         tuple(positions),
         largest,
         float(np.max(np.abs(speeds))),
         float(rubs),
-        (*found.assumed, *words),
+        (*stiffness.assumed, *words),
     )
 
 

@@ -115,14 +115,14 @@ def of_makers(case: Case) -> list[Candidate]:
         return []
     if nut.spacer_balls or not _preloaded(case):
         return []
-    found = [
+    values = [
         one
         for one in calibrations().values()
         if one.model == model.name and tuple(one.fitted) == ("share_of_load",)
         if nut.contacts_per_ball in one.contacts_per_ball
     ]
-    own = [one for one in found if is_of_maker(one.maker, make_of(case))]
-    return [Candidate(one.name, calibrated(model, one), OF_MAKERS) for one in own or found]
+    own = [one for one in values if is_of_maker(one.maker, make_of(case))]
+    return [Candidate(one.name, calibrated(model, one), OF_MAKERS) for one in own or values]
 
 
 def _preloaded(case: Case) -> bool:
@@ -140,7 +140,7 @@ def band(case: Case, options: BandOptions, done: Done | None = None, heat: HeatS
         # a temperature that varies has the viscosity with it
         inputs = {**{name: one for name, one in inputs.items() if name != "viscosity"}, **heat.inputs}
     with faults_named(FLAGS):
-        found = bands.band(
+        result = bands.band(
             **_arguments(case, inputs, options, heat),
             screw_speed=case.operation.screw_speed,
             axial_load=case.operation.axial_load,
@@ -148,14 +148,14 @@ def band(case: Case, options: BandOptions, done: Done | None = None, heat: HeatS
             samples=options.samples,
             done=done,
         )
-    assert isinstance(found, Band), "an operating point is no axis"
-    return BandReport(found, inputs, *_full_bath_and_losses(case))
+    assert isinstance(result, Band), "an operating point is no axis"
+    return BandReport(result, inputs, *_full_bath_and_losses(case))
 
 
 def _full_bath_and_losses(case: Case) -> tuple[float | None, float]:
     load, speed = case.operation.axial_load, case.operation.screw_speed
-    found = case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
-    return float(found.flooded_torque) if found.starvation else None, float(sum(found.losses.values()))
+    model = case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
+    return float(model.flooded_torque) if model.starvation else None, float(sum(model.losses.values()))
 
 
 def axis_of_curve(case: Case) -> str:

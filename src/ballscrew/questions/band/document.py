@@ -30,13 +30,13 @@ _WORTH_SAYING = 0.9
 
 def document(run: Run, report: BandReport) -> dict[str, Any]:
     """The document of a run with its band."""
-    case, answer, found = run.case, results(run.case, report), run_document(run)
+    case, answer, result = run.case, results(run.case, report), run_document(run)
     return {
-        **found,
+        **result,
         "band": declared.document(answer),
-        "units": {**found["units"], "band": declared.units(answer)},
-        "verdicts": [*found["verdicts"], *documents(verdicts(case, report))],
-        "warnings": [*found["warnings"], *documents(warnings(report))],
+        "units": {**result["units"], "band": declared.units(answer)},
+        "verdicts": [*result["verdicts"], *documents(verdicts(case, report))],
+        "warnings": [*result["warnings"], *documents(warnings(report))],
     }
 
 
@@ -82,21 +82,21 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
 
 def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Record]:
     """What narrows the band the most where it is known, and how far; empty where nothing does by a tenth."""
-    found, both = report.band.narrowing, report.band[_TORQUE].both
-    if found is None or not both.low > 0 or not both.high / both.low > 1:
+    result, both = report.band.narrowing, report.band[_TORQUE].both
+    if result is None or not both.low > 0 or not both.high / both.low > 1:
         return []
-    share = (found.high - found.low) / (both.high - both.low)
+    share = (result.high - result.low) / (both.high - both.low)
     if not share < _WORTH_SAYING:
         return []
-    if found.name == OF_MAKERS:
+    if result.name == OF_MAKERS:
         cause = "whose nut it is like, by a maker's calibration or a torque that was measured"
-    elif found.of_laws:
-        cause = f"which law of the {found.name.replace('_', ' ')} holds"
+    elif result.of_laws:
+        cause = f"which law of the {result.name.replace('_', ' ')} holds"
     else:
         known = Configuration(case.model, case.screw, case.lubricant).inputs
-        cause = known[found.name][1].info.meaning
-    low = units.shown(found.low, quantity, toward=-1)
-    high = units.shown(found.high, quantity, toward=1)
+        cause = known[result.name][1].info.meaning
+    low = units.shown(result.low, quantity, toward=-1)
+    high = units.shown(result.high, quantity, toward=1)
     message = (
         f"the band would narrow the most, to {units.number(100 * share, 2)} % of its width ({low} to {high}), if "
         f"this were known and as the model has it: {cause}"
@@ -140,7 +140,7 @@ def _rules(case: Case, report: BandReport) -> list[Record]:
         return []
     low, high = report.band[_TORQUE].both
     least, most = units.ends(low, high, _KNOWN)
-    found: list[Record] = []
+    rules: list[Record] = []
     for one in by_rules(case):
         torque = float(one.torque) + report.losses
         within = low <= torque <= high
@@ -148,7 +148,7 @@ def _rules(case: Case, report: BandReport) -> list[Record]:
         message = (
             f"the rule of {one.rule.label} gives {units.shown(torque, _KNOWN)} with the losses of the case: {side}"
         )
-        found.append(
+        rules.append(
             Record(
                 text=message,
                 id=f"band.rule_{one.rule.name}",
@@ -158,7 +158,7 @@ def _rules(case: Case, report: BandReport) -> list[Record]:
                 unit=_KNOWN.unit,
             )
         )
-    return found
+    return rules
 
 
 def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
@@ -179,32 +179,32 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     def of_laws(name: str, text: str, number: float) -> Record:
         return Record(text=text, id=f"band.{name}", subject=_TORQUE, value=number, unit=quantity.unit)
 
-    found: list[Record] = []
+    records: list[Record] = []
     if both.high < inputs.high and high != inputs_high:
         text = (
             f"inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws "
             f"give less torque than the model's; for a motor take {inputs_high}"
         )
-        found.append(of_laws("laws_lower_it", text, inputs.high))
+        records.append(of_laws("laws_lower_it", text, inputs.high))
     if both.low > inputs.low and low != inputs_low:
         text = (
             f"inputs and laws together begin at {low}, above the {inputs_low} of the inputs alone: most other laws "
             f"give more torque than the model's; for a brake take {inputs_low}"
         )
-        found.append(of_laws("laws_raise_it", text, inputs.low))
+        records.append(of_laws("laws_raise_it", text, inputs.low))
     if torque.value > laws.high and value != laws_high:
         text = (
             f"the case lies at {value}, above the laws alone ({laws_low} to {laws_high}): most other laws give less "
             f"torque than the model's; {advice}"
         )
-        found.append(of_laws("above_laws", text, torque.median))
+        records.append(of_laws("above_laws", text, torque.median))
     if torque.value < laws.low and value != laws_low:
         text = (
             f"the case lies at {value}, below the laws alone ({laws_low} to {laws_high}): most other laws give more "
             f"torque than the model's; {advice}"
         )
-        found.append(of_laws("below_laws", text, torque.median))
-    return found
+        records.append(of_laws("below_laws", text, torque.median))
+    return records
 
 
 def warnings(report: BandReport) -> list[Record]:
@@ -234,5 +234,5 @@ def _torque_in_file(text: Any, quantity: Quantity) -> str:
     """A torque as a calibrated case has it, with its digits; what is no torque stays as it is written."""
     if text is None:
         return "an unknown torque"
-    found = units.parse("calibration.holdout_rms", text, quantity)
-    return str(text) if isinstance(found, Fault) else units.shown(found, quantity, 6)
+    result = units.parse("calibration.holdout_rms", text, quantity)
+    return str(text) if isinstance(result, Fault) else units.shown(result, quantity, 6)

@@ -90,20 +90,20 @@ def points(card: TorqueCard, model: FrictionModel) -> list[Point]:
 
 def _point(card: TorqueCard, point: TorquePoint, model: FrictionModel, by_rules: dict[str, float]) -> Point:
     screw, uncertainty = card.case.screw, float(card.setup.torque_uncertainty)
-    found = model(
+    result = model(
         screw, card.case.lubricant, axial_load=0.0, screw_speed=point.screw_speed, temperature=point.temperature
     )
     readings = point.readings
     return Point(
         name=f"{float(point.screw_speed) * 30 / np.pi:.6g} rpm",
-        value=float(found.screw_torque),
+        value=float(result.screw_torque),
         band=Band(point.torque, min(readings) - uncertainty, max(readings) + uncertainty),
         descriptors={
             "speed": float(point.screw_speed),
-            "film_parameter": float(np.min([np.min(pair.screw.film_parameter) for pair in found.pairs])),
+            "film_parameter": float(np.min([np.min(pair.screw.film_parameter) for pair in result.pairs])),
         },
         laws={name: drag / point.torque for name, drag in by_rules.items()},
-        warnings=found.warning_records,
+        warnings=result.warning_records,
     )
 
 

@@ -16,13 +16,13 @@ from ballscrew.physics.sizing.own_nut import Estimate, OwnNut
 _COLUMNS = ("estimated", "value", "from", "to", "where it is from")
 
 
-def document(found: OwnNut) -> dict[str, Any]:
+def document(own_nut: OwnNut) -> dict[str, Any]:
     """The nut as the tables of a case, what was estimated with its band in SI, and what does not go together."""
     return {
-        "name": found.row.name,
-        "case": tomlkit.parse(case_text(found.row, found.estimates)).unwrap(),
-        "estimates": [_estimate(one) for one in found.estimates],
-        "warnings": documents(found.warnings),
+        "name": own_nut.row.name,
+        "case": tomlkit.parse(case_text(own_nut.row, own_nut.estimates)).unwrap(),
+        "estimates": [_estimate(one) for one in own_nut.estimates],
+        "warnings": documents(own_nut.warnings),
         "provenance": {"version": __version__},
     }
 
@@ -39,7 +39,7 @@ def _estimate(one: Estimate) -> dict[str, Any]:
     }
 
 
-def text(found: OwnNut) -> str:
+def text(own_nut: OwnNut) -> str:
     """What was estimated, one line each, and what does not go together."""
     rows = [
         (
@@ -47,15 +47,15 @@ def text(found: OwnNut) -> str:
             *(units.shown(value, one.quantity, digits=4) for value in _values(one)),
             one.source,
         )
-        for one in found.estimates
+        for one in own_nut.estimates
     ]
     lines = aligned([_COLUMNS, *rows], (0, len(_COLUMNS) - 1))
-    return "\n".join([*lines, *(f"warning: {line}" for line in warnings(found))])
+    return "\n".join([*lines, *(f"warning: {line}" for line in warnings(own_nut))])
 
 
-def warnings(found: OwnNut) -> list[str]:
+def warnings(own_nut: OwnNut) -> list[str]:
     """What does not go together, in words."""
-    return [one.text for one in found.warnings]
+    return [one.text for one in own_nut.warnings]
 
 
 def _values(one: Estimate) -> tuple[float, float, float]:

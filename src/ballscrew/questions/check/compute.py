@@ -108,8 +108,8 @@ class Checked:
     @property
     def verdict(self) -> str:
         """All checks in a few words; of what, where the case has a cycle too."""
-        found = verdict_at_point(self.checks, valid=bool(self.run.friction.valid), has_cycle=self.moves)
-        return with_unlikely(found, self.case)
+        verdict = verdict_at_point(self.checks, valid=bool(self.run.friction.valid), has_cycle=self.moves)
+        return with_unlikely(verdict, self.case)
 
     @property
     def holds(self) -> bool:
@@ -166,8 +166,8 @@ def every_row(
     def work(row: CatalogueRow) -> Checked:
         return _of_row(row, options, (tables, case, path) if tables and case and path else None)
 
-    found = each({place_of(row): row for row in chosen}, work, keep_going=keep_going, done=done)
-    return dataclasses.replace(found, notes=[*notes, *refused, *found.notes])
+    result = each({place_of(row): row for row in chosen}, work, keep_going=keep_going, done=done)
+    return dataclasses.replace(result, notes=[*notes, *refused, *result.notes])
 
 
 def is_case(name: str) -> bool:
@@ -284,7 +284,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
     assert run.nut is not None
     computed = _computed(case)
     rated, stand_ins = _rated(case, computed)
-    found = _judged(
+    result = _judged(
         case,
         _of_known_preload(run.case.screw.nut, run.nut.preload),
         rated,
@@ -297,7 +297,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
     of_life = ["life: by the loads of both flanks in the model; a duty has those of ISO 3408-5"] * (run.nut.preload > 0)
     assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, *of_life, *of_rigidity]
     assumptions.append(descriptions.left_out(run.case))
-    return Checked(name, case, run, run.nut, computed, found, list(dict.fromkeys(filter(None, assumptions))))
+    return Checked(name, case, run, run.nut, computed, result, list(dict.fromkeys(filter(None, assumptions))))
 
 
 def checks_by_loads(case: Case, preload: Force, left: Force) -> Sequence[Check]:

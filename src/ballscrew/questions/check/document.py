@@ -17,32 +17,32 @@ from ballscrew.questions.shared.envelope import numbers
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
 
-def document(found: Checked) -> dict[str, Any]:
+def document(checked: Checked) -> dict[str, Any]:
     """The document of one screw, in SI."""
-    return with_self_heating(_document(found), found.heating)
+    return with_self_heating(_document(checked), checked.heating)
 
 
-def _document(found: Checked) -> dict[str, Any]:
-    case, beside = found.case, {**run.beside(found.run), "geometry": found.geometry, "ratings": found.ratings}
+def _document(checked: Checked) -> dict[str, Any]:
+    case, beside = checked.case, {**run.beside(checked.run), "geometry": checked.geometry, "ratings": checked.ratings}
     return {
-        "name": found.name,
-        "nut": kind_of(found.nut.nut),
+        "name": checked.name,
+        "nut": kind_of(checked.nut.nut),
         "inputs": case_file.inputs(case),
-        **numbers(results=results(found.run), **beside),
-        "checks": [check_document(check) for check in found.checks],
-        "judged": judged(found.checks),
-        "holds": found.holds,
-        "verdict": found.verdict,
-        "verdicts": documents(found.verdicts),
-        "assumed": list(found.assumed),
-        "warnings": documents(found.run.warnings),
+        **numbers(results=results(checked.run), **beside),
+        "checks": [check_document(check) for check in checked.checks],
+        "judged": judged(checked.checks),
+        "holds": checked.holds,
+        "verdict": checked.verdict,
+        "verdicts": documents(checked.verdicts),
+        "assumed": list(checked.assumed),
+        "warnings": documents(checked.run.warnings),
         "provenance": provenance.of_case(case),
     }
 
 
-def list_document(found: Sequence[Checked]) -> list[dict[str, Any]]:
+def list_document(results: Sequence[Checked]) -> list[dict[str, Any]]:
     """The documents of many screws, without the loads ball by ball."""
-    listed = [document(screw) for screw in found]
+    listed = [document(screw) for screw in results]
     for each in listed:
         del each["loads"]["balls"], each["units"]["loads"]["balls"]
     return listed

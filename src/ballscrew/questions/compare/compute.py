@@ -47,17 +47,17 @@ def _other_laws(slot: str, own: Any) -> list[tuple[str, Any]]:
     present = getattr(own, slot)
     named = name_of_law(slot, present)
     kept = _coefficients(present)
-    found: list[tuple[str, Any]] = []
+    other_laws: list[tuple[str, Any]] = []
     for name, law in LAWS[slot].items():
         if name != named:
             known = coefficients_of(slot, name)
             values = {field: value for field, value in kept.items() if field in known}
-            found.append((name, law(**values) if isinstance(law, type) else law))
+            other_laws.append((name, law(**values) if isinstance(law, type) else law))
     for name, model in MODELS.items():
         law = getattr(model, slot)
-        if not any(same_law(law, other) for other in (present, *(other for _, other in found))):
-            found.append((f"as in {name}", law))
-    return found
+        if not any(same_law(law, other) for other in (present, *(other for _, other in other_laws))):
+            other_laws.append((f"as in {name}", law))
+    return other_laws
 
 
 def _coefficients(law: Any) -> dict[str, Any]:
@@ -71,11 +71,11 @@ def _coefficients(law: Any) -> dict[str, Any]:
 def comparison(case: case_file.Case, done: Callable[[int, int], None] | None = None) -> Comparison:
     """The comparison of a case; ``done(finished, total)`` reports the progress by rows."""
     models, laws = candidates(case)
-    found = compare(case.model, models, laws, case.screw, case.lubricant, case.operation, done)
+    result = compare(case.model, models, laws, case.screw, case.lubricant, case.operation, done)
     drag, lost = _drag_torque(case)
-    balls = _of_balls(found.case, drag - lost)
+    balls = _of_balls(result.case, drag - lost)
     return dataclasses.replace(
-        found, rules=_rules(case, balls), drag_torque=drag, of_balls=balls if balls.losses else None
+        result, rules=_rules(case, balls), drag_torque=drag, of_balls=balls if balls.losses else None
     )
 
 
@@ -100,8 +100,8 @@ def _rules(case: case_file.Case, balls: OfBalls) -> list[ComparedRule]:
     subject = subject_of(case)
     rows: list[ComparedRule] = []
     for rule in RULES.values():
-        found = rule.estimate(subject)
-        friction, idle = float(found.screw_torque), float(found.drag_torque)
+        estimate = rule.estimate(subject)
+        friction, idle = float(estimate.screw_torque), float(estimate.drag_torque)
         rows.append(
             ComparedRule(
                 rule.name,
@@ -110,7 +110,7 @@ def _rules(case: case_file.Case, balls: OfBalls) -> list[ComparedRule]:
                 rule.source,
                 friction,
                 _change(friction, balls.screw_torque),
-                found.efficiency(subject.ideal_torque),
+                estimate.efficiency(subject.ideal_torque),
                 idle,
                 _change(idle, balls.drag_torque),
             )
@@ -225,19 +225,19 @@ class ByRules:
     of_balls: Annotated[OfBalls | None, LEFT_OUT]
 
 
-def compared(found: Comparison) -> Compared:
+def compared(result: Comparison) -> Compared:
     """A comparison as it is answered."""
     return Compared(
-        case=_row(ComparedModel, found.case),
-        models=[_row(ComparedModel, row) for row in found.models],
-        laws=[_row(ComparedLaw, row, slot=row.candidate.slot, counts=row.candidate.counts) for row in found.laws],
-        spread=Spread(_ends(found.spread_of_models), _ends(found.spread_of_laws), found.spans),
+        case=_row(ComparedModel, result.case),
+        models=[_row(ComparedModel, row) for row in result.models],
+        laws=[_row(ComparedLaw, row, slot=row.candidate.slot, counts=row.candidate.counts) for row in result.laws],
+        spread=Spread(_ends(result.spread_of_models), _ends(result.spread_of_laws), result.spans),
     )
 
 
-def by_rules(found: Comparison) -> ByRules:
+def by_rules(result: Comparison) -> ByRules:
     """The rules of a comparison as they are answered."""
-    return ByRules(found.rules, found.drag_torque, found.of_balls)
+    return ByRules(result.rules, result.drag_torque, result.of_balls)
 
 
 def _row(cls: type[T], row: Row, **of_law: Any) -> T:
@@ -258,43 +258,43 @@ _UNITS = {name: unit for cls in (ComparedLaw, ComparedRule, OfBalls) for name, u
 _MOST_SHOWN, LEAST_SHOWN = 3, 0.005
 
 
-def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
+def document(case: case_file.Case, result: Comparison) -> dict[str, Any]:
     """Inputs, all rows in SI, the spread, provenance."""
-    failing = {reason for row in found.rows for reason in row.outside}
+    failing = {reason for row in result.rows for reason in row.outside}
     return {
         "inputs": case_file.inputs(case),
-        **declared.document(compared(found)),
+        **declared.document(compared(result)),
         "units": dict(_UNITS),
         "reasons": {reason: text for reason, text in NUT_REASONS.items() if reason in failing},
-        "verdicts": documents(verdicts(found)),
+        "verdicts": documents(verdicts(result)),
         "checks": [],
-        "warnings": documents(warnings(case, found)),
+        "warnings": documents(warnings(case, result)),
         "provenance": of_case(case),
-        **declared.document(by_rules(found)),
+        **declared.document(by_rules(result)),
     }
 
 
-def warnings(case: case_file.Case, found: Comparison) -> list[Record]:
+def warnings(case: case_file.Case, result: Comparison) -> list[Record]:
     """The warnings of the case itself."""
-    return [*found.case.result.warning_records, *case.doubts]
+    return [*result.case.result.warning_records, *case.doubts]
 
 
-def verdicts(found: Comparison) -> list[Record]:
+def verdicts(result: Comparison) -> list[Record]:
     """The spread over models, the spread over valid laws, and the components that change the torque most."""
     records: list[Record] = []
-    if found.spread_of_models is not None:
-        outside = [row.candidate.name for row in found.models if row.outside]
-        text = _spread(found.spread_of_models, found.models)
+    if result.spread_of_models is not None:
+        outside = [row.candidate.name for row in result.models if row.outside]
+        text = _spread(result.spread_of_models, result.models)
         if outside:
             text = f"{text}; not valid here: {', '.join(outside)}"
-        records.append(_spread_record("compare.models", text, found.spread_of_models))
-    if found.spread_of_laws is None:
+        records.append(_spread_record("compare.models", text, result.spread_of_models))
+    if result.spread_of_laws is None:
         records.append(Record(text="none is valid here", id="compare.laws", subject=_TORQUE, holds=False))
     else:
-        valid = [row for row in (found.case, *found.laws) if row.candidate.counts and not row.outside]
-        text = _spread(found.spread_of_laws, valid)
-        records.append(_spread_record("compare.laws", text, found.spread_of_laws, holds=True))
-    spans = {slot: span for slot, span in found.spans.items() if max(map(abs, span)) >= LEAST_SHOWN}
+        valid = [row for row in (result.case, *result.laws) if row.candidate.counts and not row.outside]
+        text = _spread(result.spread_of_laws, valid)
+        records.append(_spread_record("compare.laws", text, result.spread_of_laws, holds=True))
+    spans = {slot: span for slot, span in result.spans.items() if max(map(abs, span)) >= LEAST_SHOWN}
     if spans:
         most = list(spans.items())[:_MOST_SHOWN]
         effects = ", ".join(f"{_words(slot)} ({_span(span)})" for slot, span in most)

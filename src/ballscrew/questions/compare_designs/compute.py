@@ -43,15 +43,15 @@ def side_by_side(
     A design is called as its project calls it, or as its file. Raises :class:`~ballscrew.basis.errors.InputError` with
     the name of the design that is at fault.
     """
-    found = [(design, Path(path).parent) for path in paths for design in project.read(path)]
-    names = [design.name for design, _ in found]
+    values = [(design, Path(path).parent) for path in paths for design in project.read(path)]
+    names = [design.name for design, _ in values]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InputError(Fault("compare", "two designs of one name", twice, "name the files, or the designs, apart"))
-    tables = [case_file.override(copy.deepcopy(dict(design.tables)), settings) for design, _ in found]
+    tables = [case_file.override(copy.deepcopy(dict(design.tables)), settings) for design, _ in values]
     operation = tables[0].get("operation")
     checks: list[Checked] = []
-    for (design, folder), each in zip(found, tables, strict=True):
+    for (design, folder), each in zip(values, tables, strict=True):
         at = each if own or operation is None else {**each, "operation": operation}
         checks.append(_checked(design.name, at, folder, model, calibration, allow_code))
     return SideBySide(checks, own)
@@ -73,14 +73,14 @@ def _checked(
 COMPARED = ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
 
 
-def document(found: SideBySide) -> dict[str, Any]:
+def document(result: SideBySide) -> dict[str, Any]:
     """All designs in SI, each as ``ballscrew check --json`` has it; a change is a share of the value of the first."""
-    first = found.designs[0]
+    first = result.designs[0]
     return {
-        "at": "own" if found.own else "first",
+        "at": "own" if result.own else "first",
         "designs": [
             {**whole, "change": {name: change_of(name, one, first) for name in COMPARED}}
-            for whole, one in zip(list_document(found.designs), found.designs, strict=True)
+            for whole, one in zip(list_document(result.designs), result.designs, strict=True)
         ],
         "provenance": {"version": __version__},
     }

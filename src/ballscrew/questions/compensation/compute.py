@@ -148,12 +148,17 @@ class CompensationResults(NamedTuple):
     direction: str
 
 
-def document(found: PositionCompensation, report: WarmUpReport) -> dict[str, Any]:
+def document(result: PositionCompensation, report: WarmUpReport) -> dict[str, Any]:
     """The document of a compensation of positions, in SI."""
     return envelope(
         report.case,
         CompensationResults(
-            found.positions.tolist(), found.errors.tolist(), found.worst_error, found.cell, found.hours, found.direction
+            result.positions.tolist(),
+            result.errors.tolist(),
+            result.worst_error,
+            result.cell,
+            result.hours,
+            result.direction,
         ),
         assumed=report.assumed,
         warnings=verdicts.warnings(report),

@@ -23,17 +23,17 @@ from ballscrew.questions.compensation.compute import PositionCompensation
 _WIDTH = 28
 
 
-def sinumerik(found: PositionCompensation, axis: str) -> str:
+def sinumerik(position_compensation: PositionCompensation, axis: str) -> str:
     """``_N_AX_EEC_INI`` of a machine axis, ``X1``."""
-    points = enumerate((1e3 * found.errors).tolist())
-    first, last = (1e3 * float(found.positions[end]) for end in (0, -1))
+    points = enumerate((1e3 * position_compensation.errors).tolist())
+    first, last = (1e3 * float(position_compensation.positions[end]) for end in (0, -1))
     lines = [
         "%_N_AX_EEC_INI",
         "CHANDATA(1)",
         *(f"$AA_ENC_COMP[0,{k},{axis}]={value:.5f}" for k, value in points),
-        f"$AA_ENC_COMP_STEP[0,{axis}]={1e3 * found.step:.6f}",
-        f"$AA_ENC_COMP_MIN[0,{axis}]={first:.4f} ; {found.mounting}",
-        f"$AA_ENC_COMP_MAX[0,{axis}]={last:.4f} ; {_state(found)}",
+        f"$AA_ENC_COMP_STEP[0,{axis}]={1e3 * position_compensation.step:.6f}",
+        f"$AA_ENC_COMP_MIN[0,{axis}]={first:.4f} ; {position_compensation.mounting}",
+        f"$AA_ENC_COMP_MAX[0,{axis}]={last:.4f} ; {_state(position_compensation)}",
         f"$AA_ENC_COMP_IS_MODULO[0,{axis}]=0",
         "M17",
         "",
@@ -41,9 +41,12 @@ def sinumerik(found: PositionCompensation, axis: str) -> str:
     return "\n".join(lines)
 
 
-def isg(found: PositionCompensation, axis: str) -> str:
+def isg(position_compensation: PositionCompensation, axis: str) -> str:
     """``kw.ssfk.*`` for both directions, of an axis by its name."""
-    positions, values = (np.round(1e7 * each).astype(int).tolist() for each in (found.positions, found.errors))
+    positions, values = (
+        np.round(1e7 * each).astype(int).tolist()
+        for each in (position_compensation.positions, position_compensation.errors)
+    )
     entries: dict[str, object] = {
         "kopf.log_achs_name": axis,
         "kw.ssfk.interval": 0,
@@ -54,12 +57,12 @@ def isg(found: PositionCompensation, axis: str) -> str:
     }
     for name, column in (("setpoint", positions), ("pos", values), ("neg", values)):
         entries |= {f"kw.ssfk.table[{k}].{name}": value for k, value in enumerate(column)}
-    said = (f"# {line}" for line in (found.mounting, _state(found)))
+    said = (f"# {line}" for line in (position_compensation.mounting, _state(position_compensation)))
     return "\n".join([*said, *(f"{name:<{_WIDTH}} {value}" for name, value in entries.items()), ""])
 
 
-def _state(found: PositionCompensation) -> str:
-    return f"holds after {found.hours:g} h of the work of its case only"
+def _state(position_compensation: PositionCompensation) -> str:
+    return f"holds after {position_compensation.hours:g} h of the work of its case only"
 
 
 #: The lists by the name of the control.

@@ -74,7 +74,7 @@ def of_files(
         ]
         speed = None
     with faults_named(_FLAGS):
-        found = condition(
+        result = condition(
             case.model,
             case.screw,
             case.lubricant,
@@ -89,8 +89,8 @@ def of_files(
             kind=options.kind,
             inertia=options.inertia,
         )
-    records = (*found.warning_records, *case.implausible())
-    return dataclasses.replace(found, warning_records=records)
+    records = (*result.warning_records, *case.implausible())
+    return dataclasses.replace(result, warning_records=records)
 
 
 def _speed(series: torque_series.TorqueSeries, options: ConditionOptions) -> float | None:
@@ -154,19 +154,19 @@ class ConditionResults(
     factor: Estimate
 
 
-def document(case: Case, found: Condition) -> dict[str, Any]:
+def document(case: Case, result: Condition) -> dict[str, Any]:
     """Inputs, the state in each test, trend, alarm, warnings and provenance."""
-    by_test, trend = found.per == "test", found.trend
+    by_test, trend = result.per == "test", result.trend
     results = from_attributes(
         ConditionResults,
-        found,
-        states=[_state(number, state, found) for number, state in enumerate(found.states)],
+        result,
+        states=[_state(number, state, result) for number, state in enumerate(result.states)],
         trend=TrendOfPreload(*trend, "logarithm of the preload", "1" if by_test else "1/s"),
-        factor=Estimate(found.factor, *found.factor_interval),
+        factor=Estimate(result.factor, *result.factor_interval),
     )
     sources = {
-        "logs": [{"log": name, "sha256": digest} for name, digest in found.sources],
-        "notes": list(found.notes),
+        "logs": [{"log": name, "sha256": digest} for name, digest in result.sources],
+        "notes": list(result.notes),
     }
     units = {
         "torque": "N m",
@@ -181,17 +181,17 @@ def document(case: Case, found: Condition) -> dict[str, Any]:
         case,
         results,
         units=units,
-        warnings=found.warning_records,
-        verdicts=found.verdict_records,
+        warnings=result.warning_records,
+        verdicts=result.verdict_records,
         sources=sources,
     )
 
 
-def _state(number: int, state: State, found: Condition) -> TestState:
+def _state(number: int, state: State, result: Condition) -> TestState:
     return from_attributes(
         TestState,
         state,
         torque=Estimate(state.torque, state.torque_low, state.torque_high),
         preload=Estimate(state.preload, state.preload_low, state.preload_high),
-        **{name: values[number] for name, values in found.chart._asdict().items()},
+        **{name: values[number] for name, values in result.chart._asdict().items()},
     )

@@ -28,20 +28,20 @@ class Curve(NamedTuple):
     outputs: Sequence[str]
 
 
-def curves(found: Run) -> dict[str, Curve]:
+def curves(run: Run) -> dict[str, Curve]:
     """The curves by name; ``cold_and_hot`` only where the oil follows the temperature, under load and not at rest."""
-    operation = found.case.operation
+    operation = run.case.operation
     load, speed = float(operation.axial_load), float(operation.screw_speed)
-    is_nut = found.nut is not None
+    is_nut = run.nut is not None
     speeds, loads = _far(speed, SPEED), _far(load, LOAD)
     films = ["minimum_film_parameter"] if is_nut else ["screw_film_parameter", "nut_film_parameter"]
     pressures = ["maximum_pressure"] if is_nut else ["screw_maximum_pressure", "nut_maximum_pressure"]
     side = MAP_OF_NUT if is_nut else MAP
-    hot = _cold_and_hot(found, load, speed)
+    hot = _cold_and_hot(run, load, speed)
     return {
         "over_speed": Curve(
             {"screw_speed": _axis(speeds, OVER_SPEED, _points(speeds, CURVE), "rad/s")},
-            ["screw_torque", *(f"contribution_{name}" for name in found.friction.contributions), *films],
+            ["screw_torque", *(f"contribution_{name}" for name in run.friction.contributions), *films],
         ),
         **({} if hot is None else {"cold_and_hot": hot}),
         "over_both": Curve(
@@ -57,9 +57,9 @@ def curves(found: Run) -> dict[str, Curve]:
     }
 
 
-def _cold_and_hot(found: Run, load: float, speed: float) -> Curve | None:
+def _cold_and_hot(run: Run, load: float, speed: float) -> Curve | None:
     """The torque over the temperature, at rest and at speed, and in a full bath where oil comes back late."""
-    case = found.case
+    case = run.case
     if not case.lubricant.follows_temperature or not load or not speed:
         return None
     now = case.oil.get("temperature")

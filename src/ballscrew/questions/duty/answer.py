@@ -25,11 +25,11 @@ def document(report: DutyReport) -> dict[str, Any]:
     )
 
 
-def with_band(found: DutyBandReport) -> dict[str, Any]:
+def with_band(duty_band_report: DutyBandReport) -> dict[str, Any]:
     """The document of a duty with its bands."""
-    bands = found.bands
+    bands = duty_band_report.bands
     return {
-        **document(found.report),
+        **document(duty_band_report.report),
         "band": {
             "level": bands.level,
             "samples": bands.count,
@@ -37,7 +37,9 @@ def with_band(found: DutyBandReport) -> dict[str, Any]:
                 name: {"value": one.value, "median": one.median, **one.band._asdict()}
                 for name, one in bands.numbers.items()
             },
-            "inputs": {name: {"source": one.source, "given": one.given} for name, one in found.inputs.items()},
+            "inputs": {
+                name: {"source": one.source, "given": one.given} for name, one in duty_band_report.inputs.items()
+            },
         },
     }
 

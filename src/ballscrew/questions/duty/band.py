@@ -43,11 +43,11 @@ def band(
     if only_given and not inputs:
         raise InputError(NOTHING_GIVEN)
     with faults_named({"band.": "--"}):
-        found = duty_band(
+        result = duty_band(
             report.duty,
             distributions=uncertain,
             beside=report.case.uncertain_supports,
             samples=SAMPLES if samples is None else samples,
             done=done,
         )
-    return DutyBandReport(report, found, inputs)
+    return DutyBandReport(report, result, inputs)

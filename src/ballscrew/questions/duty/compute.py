@@ -425,12 +425,12 @@ class DutyReport(CycleNumbers):
     def phases(self) -> Sequence[PhaseNumbers]:
         """What each phase of the motion asks of the motor."""
         duty, states = self.duty, self.duty.states
-        found: list[PhaseNumbers] = []
+        phases: list[PhaseNumbers] = []
         for number, name in enumerate(states.phases):
             own = states.phase == number
             weight, torque = states.weight[own], duty.torque[own]
             duration = float(np.sum(weight))
-            found.append(
+            phases.append(
                 PhaseNumbers(
                     name,
                     start=float(states.time[own][0]),
@@ -441,7 +441,7 @@ class DutyReport(CycleNumbers):
                     energy=float(np.sum(weight * duty.power[own])),
                 )
             )
-        return found
+        return phases
 
     @part
     def cycle(self) -> Cycle:
@@ -479,12 +479,14 @@ class DutyReport(CycleNumbers):
     @lazy
     def torque_by_cause(self) -> Mapping[str, Numbers]:
         """Torque of the motor by cause at each state, N m, by mechanics; causes that are rounding are left out."""
-        found: dict[str, Numbers] = {}
+        numbers: dict[str, Numbers] = {}
         for name, torque in self.duty.parts.items():
             cause = cause_of(name)
-            found[cause] = found.get(cause, np.zeros_like(self.duty.torque)) + torque
+            numbers[cause] = numbers.get(cause, np.zeros_like(self.duty.torque)) + torque
         least = _LEAST_TORQUE * self.duty.torque_peak
-        return {cause: found[cause] for cause in CAUSES if cause in found and np.any(np.abs(found[cause]) > least)}
+        return {
+            cause: numbers[cause] for cause in CAUSES if cause in numbers and np.any(np.abs(numbers[cause]) > least)
+        }
 
     @lazy
     def short_reversal(self) -> ShortReversal | None:
@@ -526,7 +528,7 @@ class DutyReport(CycleNumbers):
         nut = case.screw.nut
         nut = nut.changed("preload", self.cycle_life.preload) if isinstance(nut, OversizeBallNut) else nut
         mean = self.cycle_life.mean_load_of_both
-        found = checks(
+        result = checks(
             case.screw,
             axial_load=0.0 if math.isnan(mean) else min(mean, self.largest_load),
             largest_load=self.largest_load,
@@ -539,7 +541,7 @@ class DutyReport(CycleNumbers):
             limits=case.limits,
             speed_limit=speed_limit_of(case.row),
         )
-        return [check for check in found if check.name in _OF_EXTREMES]
+        return [check for check in result if check.name in _OF_EXTREMES]
 
     @property
     def _of_life(self) -> Sequence[Check]:
@@ -552,7 +554,7 @@ class DutyReport(CycleNumbers):
         if not self.duty.revolutions:
             idle = "not judged: nothing turns"
             return [Check.saying(idle, name, None, None, unit, None, None) for name, unit in _LIFE]
-        found: list[Check] = []
+        result: list[Check] = []
         for (name, unit), value, words in zip(
             _LIFE,
             (float(self.life_revolutions), float(self.life_time)),
@@ -565,13 +567,13 @@ class DutyReport(CycleNumbers):
             if required is None:
                 missing = "limits.running_time"
                 message = UNJUDGED.format(life=words, advice=NOT_JUDGED.format(input=missing))
-                found.append(Check.saying(message, name, value, None, unit, None, None, missing))
+                result.append(Check.saying(message, name, value, None, unit, None, None, missing))
                 continue
             cycles = required / self.duty.states.cycle_time
             limit = required if unit == "s" else cycles * self.duty.revolutions
             used = limit / value if value else math.inf
-            found.append(Check.saying(words, name, value, limit, unit, used, used <= 1))
-        return found
+            result.append(Check.saying(words, name, value, limit, unit, used, used <= 1))
+        return result
 
 
 _LIFE = (("life", "1"), ("running_time", "s"))
@@ -615,19 +617,19 @@ def _report(case: Case, cycle: Callable[..., axis_duty.Duty], *, recorded: bool)
     assert axis is not None
     assert case.motion is not None
     driver = case.model if case.efficiency is None else case.efficiency
-    found = cycle(
+    result = cycle(
         driver, case.screw, case.lubricant, axis=axis, motion=case.motion, also=beside(case), recorded=recorded
     )
     rating, source = _rating(case)
-    screw = _in_motion(case, found)
-    life = CycleLife(found, screw.nut, float(preload_of(screw, screw.nut)), rating)
-    rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
-    return DutyReport(case, axis, case.motion, found, life, source, rule)
+    screw = _in_motion(case, result)
+    life = CycleLife(result, screw.nut, float(preload_of(screw, screw.nut)), rating)
+    rule = VendorRule(result, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
+    return DutyReport(case, axis, case.motion, result, life, source, rule)
 
 
-def _in_motion(case: Case, found: axis_duty.Duty) -> BallScrew:
+def _in_motion(case: Case, result: axis_duty.Duty) -> BallScrew:
     """The screw with the preload that it has at the mean speed of the cycle, where it was set at rest."""
-    speed = np.abs(found.screw_speed)
+    speed = np.abs(result.screw_speed)
     if case.efficiency is not None or not case.screw.nut.set_at_rest or not np.any(speed > 0):
         return case.screw
     mean = float(np.mean(speed[speed > 0]))
@@ -638,9 +640,9 @@ def _in_motion(case: Case, found: axis_duty.Duty) -> BallScrew:
 def duty(case: Case, *, recorded: bool = False) -> DutyReport:
     """The duty of a case with an axis and a motion; ``recorded`` as for :func:`ballscrew.axis.duty_cycle.duty.duty`."""
     report = _report(case, axis_duty.duty, recorded=recorded)
-    found = report.duty
-    if not math.isfinite(found.torque_rms):
-        at = found.states.phases[int(found.states.phase[int(np.argmin(np.isfinite(found.torque)))])]
+    result = report.duty
+    if not math.isfinite(result.torque_rms):
+        at = result.states.phases[int(result.states.phase[int(np.argmin(np.isfinite(result.torque)))])]
         problem, remedy = "is no number with these inputs", "look at mass, acceleration, oil and temperature"
         raise InputError(Fault("duty.torque", problem, f"in “{at}”", remedy))
     # here, where numbers beyond any float become a fault of the input

@@ -45,10 +45,10 @@ def short_reversal(case: Case, duty: Duty) -> ShortReversal | None:
     motion that never turns round, and for friction that knows no such curve.
     """
     lead = float(case.screw.lead)
-    found = strokes(duty, lead)
-    if case.efficiency is not None or not found:
+    result = strokes(duty, lead)
+    if case.efficiency is not None or not result:
         return None
-    shortest = min(found)
+    shortest = min(result)
     if shortest.length > _LONG * lead:
         return None
     parts = (case.model, case.screw, case.lubricant)
@@ -75,9 +75,9 @@ def strokes(duty: Duty, lead: Length) -> list[Stroke]:
     runs = np.split(moving, turns)
     if direction[0] == direction[-1]:  # the last way goes on in the next cycle
         runs = [np.concatenate([runs[-1], runs[0]]), *runs[1:-1]]
-    found: list[Stroke] = []
+    result: list[Stroke] = []
     for run in runs:
         time = float(weight[run].sum())
         turned, load = float(weight[run] @ speed[run]), float(weight[run] @ np.asarray(duty.axial_load)[run])
-        found.append(Stroke(abs(turned) * lead / (2 * math.pi), load / time, turned / time))
-    return found
+        result.append(Stroke(abs(turned) * lead / (2 * math.pi), load / time, turned / time))
+    return result

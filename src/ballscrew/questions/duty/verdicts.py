@@ -94,11 +94,11 @@ def _not_given(report: DutyReport) -> str:
 
 def _brake(report: DutyReport) -> Record:
     brake = report.brake
-    moving = [found for found in brake.conditions if found.falls or found.goes_on]
+    moving = [condition for condition in brake.conditions if condition.falls or condition.goes_on]
     if not brake.load_torque:
         message = "no brake is needed to hold it: no load turns the screw at rest"
     elif not moving:
-        least = min(found.safety for found in brake.conditions)
+        least = min(condition.safety for condition in brake.conditions)
         message = (
             f"stays with the motor off: friction from rest is at least {units.number(least)} times the torque of "
             "the load"
@@ -113,7 +113,7 @@ def _brake(report: DutyReport) -> Record:
         everywhere = len(moving) == len(brake.conditions)
         falls = goes if brake.starts else f"stays, but {goes} once it is started,"
         conditions = "in all conditions" if everywhere else ", ".join(c.condition for c in moving)
-        speed = units.shown(max(found.speed_after_stroke for found in moving), _SPEED)
+        speed = units.shown(max(each.speed_after_stroke for each in moving), _SPEED)
         factor = units.number(brake.brake_factor, 6)
         load = units.shown(brake.load_torque, _TORQUE)
         holding = units.shown(brake.holding_torque, _TORQUE)
@@ -254,7 +254,7 @@ def _jumps(report: DutyReport) -> list[Record]:
         return []
     ends, names = states.speeds_of_ends, states.phases
     floor = _JUMPS * float(np.max(np.abs(states.speed)))
-    found: list[Record] = []
+    jumps: list[Record] = []
     for number, (_, before) in enumerate(ends):
         after = ends[(number + 1) % len(ends)][0]
         if abs(after - before) <= floor:
@@ -264,8 +264,8 @@ def _jumps(report: DutyReport) -> list[Record]:
             f"the speed jumps from {units.shown(before, _SPEED)} (“{here}”) to {units.shown(after, _SPEED)} "
             f"(“{there}”): no torque is counted for it; put a move with a distance between them"
         )
-        found.append(_warning("speed_jump", f"motion.phase {number + 1}", message, abs(after - before), 0.0, _SPEED))
-    return found
+        jumps.append(_warning("speed_jump", f"motion.phase {number + 1}", message, abs(after - before), 0.0, _SPEED))
+    return jumps
 
 
 def loaded_circuit(screw: BallScrew) -> float:
@@ -288,14 +288,15 @@ def _short_stroke(report: DutyReport) -> list[Record]:
 
 def _short_reversal(report: DutyReport) -> list[Record]:
     """A stroke within which the friction that turned round does not come back: it loses less than is counted."""
-    found = report.short_reversal
-    if found is None:
+    short_reversal = report.short_reversal
+    if short_reversal is None:
         return []
-    stroke = units.shown(found.stroke, TRAVEL, 3)
+    stroke = units.shown(short_reversal.stroke, TRAVEL, 3)
     message = (
         f"friction changes its sign at once here, but after a reversal {units.percent(BACK)} of that of the screw "
-        f"are back within {units.shown(found.back, TRAVEL, 3)}, and the shortest stroke is {stroke}: to and fro "
-        f"over it the screw loses {units.percent(found.work_share)} of the work counted, by a hypothesis "
+        f"are back within {units.shown(short_reversal.back, TRAVEL, 3)}, and the shortest stroke is {stroke}: to and "
+        f"fro 
+        f"over it the screw loses {units.percent(short_reversal.work_share)} of the work counted, by a hypothesis "
         "(ballscrew reversal)"
     )
     return [
@@ -304,8 +305,8 @@ def _short_reversal(report: DutyReport) -> list[Record]:
             id="duty.short_reversal",
             subject="stroke",
             severity="info",
-            value=found.stroke,
-            limit=found.back,
+            value=short_reversal.stroke,
+            limit=short_reversal.back,
             unit=TRAVEL.unit,
         )
     ]
@@ -313,7 +314,7 @@ def _short_reversal(report: DutyReport) -> list[Record]:
 
 def _too_fast(report: DutyReport) -> list[Record]:
     """The way out where the shaft would whirl, or the balls be too fast."""
-    found: list[Record] = []
+    too_fast: list[Record] = []
     for name, remedy in (
         ("critical_speed", "hold the ends firmer, shorten the shaft, or take a greater lead"),
         (
@@ -331,8 +332,8 @@ def _too_fast(report: DutyReport) -> list[Record]:
             f"{turning} are {units.number(check.utilisation, 3)} times what the {check.title} permits: move at "
             f"{largest} at most, {remedy}"
         )
-        found.append(_warning(name, "motion.speed", message, speed, speed / check.utilisation, _SPEED))
-    return found
+        too_fast.append(_warning(name, "motion.speed", message, speed, speed / check.utilisation, _SPEED))
+    return too_fast
 
 
 def _check(report: DutyReport, name: str) -> Check | None:
@@ -370,13 +371,13 @@ def _validity(report: DutyReport) -> list[Record]:
     """Conditions of the model that fail while the axis moves, with the share of that time."""
     states, known = report.duty.states, {**CONDITIONS, **NUT_CONDITIONS}
     weight = np.where(states.direction != 0, states.weight, 0.0)
-    found: list[Record] = []
+    validity: list[Record] = []
     for name, mask in report.duty.screw.validity.items():
         share = float(np.sum(weight * ~mask)) / max(float(np.sum(weight)), 1e-300)
         condition = known.get(name)
         if not share or condition is None:
             continue
-        found.append(
+        validity.append(
             Record(
                 text=_for_a_share(condition.text, share),
                 id=f"validity.{name}",
@@ -387,7 +388,7 @@ def _validity(report: DutyReport) -> list[Record]:
                 limit=0.0,
             )
         )
-    return found
+    return validity
 
 
 def _for_a_share(condition: str, share: float) -> str:
@@ -400,12 +401,12 @@ def _validity_of_elements(report: DutyReport) -> list[Record]:
     weight = np.where(states.direction != 0, states.weight, 0.0)
     known = {name: condition.text for name, condition in {**CONDITIONS, **NUT_CONDITIONS}.items()}
     known[DIRECTION] = "one row carries no load in the other direction: it was computed for the size of the load"
-    found: list[Record] = []
+    validity: list[Record] = []
     for element, masks in report.duty.support_validity.items():
         for name, mask in masks.items():
             share = float(np.sum(weight * ~np.asarray(mask))) / max(float(np.sum(weight)), 1e-300)
             if share and name in known:
-                found.append(
+                validity.append(
                     Record(
                         text=f"{element}: {_for_a_share(known[name], share)}",
                         id=f"validity.{name}",
@@ -416,4 +417,4 @@ def _validity_of_elements(report: DutyReport) -> list[Record]:
                         limit=0.0,
                     )
                 )
-    return found
+    return validity

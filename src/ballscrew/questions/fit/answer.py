@@ -196,10 +196,10 @@ def _rows(model: CalibratedModel) -> FitRows:
 
 def document(case: Case, report: FitReport) -> dict[str, Any]:
     """Estimates, residuals, what cannot be identified, the next test, warnings and provenance."""
-    model, found = report.model, results(report)
+    model, result = report.model, results(report)
     return {
-        **declared.document(found),
-        "units": declared.units(found),
+        **declared.document(result),
+        "units": declared.units(result),
         "verdicts": documents(model.verdict_records),
         "checks": [],
         "warnings": documents(model.warning_records),

@@ -176,13 +176,13 @@ def candidates(case: Case) -> list[Candidate]:
         (name for name in usual if name != TEMPERATURE.name), key=lambda name: not name.endswith(DEFAULT_FREE)
     )
     values = {name: subject.value_of(name) for name in names}
-    found = [Candidate(n, subject.inputs[n][1], math.nan if x is None else float(x)) for n, x in values.items()]
-    return [*found[:1], Candidate(CONSTANT_TORQUE.name, CONSTANT_TORQUE, 0.0), *found[1:]]
+    result = [Candidate(n, subject.inputs[n][1], math.nan if x is None else float(x)) for n, x in values.items()]
+    return [*result[:1], Candidate(CONSTANT_TORQUE.name, CONSTANT_TORQUE, 0.0), *result[1:]]
 
 
 def free_quantities(case: Case, free: Sequence[str]) -> dict[str, Quantity]:
     """Quantities of the free numbers that are known; the fit refuses the others."""
     subject = Configuration(case.model, case.screw, case.lubricant)
     full = {name: _full_name(subject, name) for name in free}
-    known = {name: subject.inputs[found][1] for name, found in full.items() if found is not None}
+    known = {name: subject.inputs[each][1] for name, each in full.items() if each is not None}
     return known | ({CONSTANT_TORQUE.name: CONSTANT_TORQUE} if CONSTANT_TORQUE.name in free else {})

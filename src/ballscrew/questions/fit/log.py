@@ -24,11 +24,11 @@ CONDITIONS = ("axial_load", "screw_speed", "temperature")
 def read_options(case: Case, written: Mapping[str, Any]) -> FitOptions:
     """The options of a fit as numbers in SI. Raises :class:`~ballscrew.basis.errors.InputError` with all faults."""
 
-    def quantities(name: str, found: Mapping[str, Any]) -> Mapping[str, Quantity]:
+    def quantities(name: str, values: Mapping[str, Any]) -> Mapping[str, Quantity]:
         if name == "bounds":
             from ballscrew.questions.fit.compute import free_quantities  # slow to import: only where bounds are given
 
-            return free_quantities(case, found["free"])
+            return free_quantities(case, values["free"])
         inputs = inputs_of(case.model, case.screw, case.lubricant)
         return {name: inputs[name][1] for name in CONDITIONS if name in inputs}
 

@@ -54,22 +54,22 @@ class LogColumns(NamedTuple):
     free: Sequence[FreeNumber]
 
 
-def document(found: Preview, candidates: Sequence[Candidate], *, moving: bool) -> dict[str, Any]:
+def document(preview: Preview, candidates: Sequence[Candidate], *, moving: bool) -> dict[str, Any]:
     """The columns of a file, the columns that a log may have, and the numbers that may be fitted."""
     answer = from_attributes(
         LogColumns,
-        found,
+        preview,
         moving=moving,
         known=[
             KnownColumn(column.name, quantity.info.meaning, quantity.unit, quantity.shown_in, column.required)
             for column in COLUMNS
             if (quantity := column.quantity) is not None
         ],
-        missing=[fault.column for fault in found.faults if fault.id == NO_COLUMN],
+        missing=[fault.column for fault in preview.faults if fault.id == NO_COLUMN],
         free=[
             FreeNumber(name, quantity.info.meaning, quantity.info.symbol, quantity.unit, quantity.shown_in, value)
             for name, quantity, value in candidates
         ],
     )
-    faults = [{**fault.document(), "column": fault.column} for fault in found.faults]
+    faults = [{**fault.document(), "column": fault.column} for fault in preview.faults]
     return {**declared.document(answer), "faults": faults}

@@ -45,9 +45,9 @@ def logs(
         return steady_log(case, path, options(case))
 
     named = {row.place: (row.case, row.log) for row in rows.values() if row.log is not None}
-    found = every_row.each(named, read, keep_going=keep_going, done=done)
+    result = every_row.each(named, read, keep_going=keep_going, done=done)
     notes = [f"{file.name}: no log of {', '.join(without)}"] if without else []
-    return dataclasses.replace(found, notes=[*notes, *found.notes])
+    return dataclasses.replace(result, notes=[*notes, *result.notes])
 
 
 def fits(
@@ -76,13 +76,13 @@ def files(rows: Mapping[str, RowCase], folder: Path) -> dict[str, Path]:
 
     Raises :class:`~ballscrew.basis.errors.InputError` for two rows with the same file.
     """
-    found = {name: folder / f"{_ODD.sub('_', name).strip('._') or '_'}.toml" for name in rows}
+    paths = {name: folder / f"{_ODD.sub('_', name).strip('._') or '_'}.toml" for name in rows}
     taken: dict[str, str] = {}
     faults: list[Fault] = []
-    for name, path in found.items():
+    for name, path in paths.items():
         other = taken.setdefault(path.name.casefold(), name)
         if other != name:
             problem = "would have the same file as another row"
             faults.append(Fault("--to", problem, f"{name} and {other}", "give the rows other names"))
     raise_if_any(faults)
-    return found
+    return paths

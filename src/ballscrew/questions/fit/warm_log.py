@@ -36,9 +36,9 @@ def warm_log(case: Case, log: TorqueLog, kind: Kind = "unknown") -> tuple[Torque
     check_oil(case)
     if log.temperature is not None:
         raise InputError(Fault(OPTION, "is given beside a log with temperatures", "", "leave it out"))
-    found = log.kind if kind == "unknown" else kind
-    if found != "friction":
-        problem = f"needs a log of friction torque: of a torque that is {_named(found)} the heat is not known yet"
+    result = log.kind if kind == "unknown" else kind
+    if result != "friction":
+        problem = f"needs a log of friction torque: of a torque that is {_named(result)} the heat is not known yet"
         remedy = "log the temperature of the nut, or give a log of friction torque with --kind friction"
         raise InputError(Fault(OPTION, problem, "", remedy))
     surroundings = case.surroundings or Surroundings()

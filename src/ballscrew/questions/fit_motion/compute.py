@@ -18,7 +18,7 @@ _FLAGS = {f"fit.{name}": option.flag for name, option in options_of(FitMotionOpt
 def fit(case: Case, log: MovingLog, test: MovingLog | None, options: FitMotionOptions) -> MotionFit:
     """Fit of a case to a moving log. Raises ``InputError`` that names options of the command line."""
     try:
-        found = fit_motion(
+        result = fit_motion(
             case.model,
             case.screw,
             case.lubricant,
@@ -32,4 +32,4 @@ def fit(case: Case, log: MovingLog, test: MovingLog | None, options: FitMotionOp
     except InputError as error:
         faults = (dataclasses.replace(one, where=_FLAGS.get(one.where, one.where)) for one in error.faults)
         raise InputError(*faults) from None
-    return dataclasses.replace(found, warning_records=(*found.warning_records, *case.implausible()))
+    return dataclasses.replace(result, warning_records=(*result.warning_records, *case.implausible()))

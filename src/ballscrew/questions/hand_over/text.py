@@ -17,21 +17,21 @@ def text(export: Export, written: Sequence[Path]) -> str:
 
 def lines(export: Export) -> list[str]:
     """The range, the worst error of each output, and the warnings, one line each."""
-    found: list[str] = []
+    names: list[str] = []
     for heading, entries in blocks(export):
-        found += [heading, *(f"  {entry}" for entry in entries)]
-    return [*found, *(f"warning: {record.text}" for record in export.warnings)]
+        names += [heading, *(f"  {entry}" for entry in entries)]
+    return [*names, *(f"warning: {record.text}" for record in export.warnings)]
 
 
 def blocks(export: Export) -> list[tuple[str, list[str]]]:
     """Headings and what stands below them: the range of each input, and the worst error of each output."""
     ranges = [_ends(name, ends, export) for name, ends in export.valid_range.items()]
-    found = [("range, beyond which the nearest value counts and valid is 0:", ranges)]
+    pairs = [("range, beyond which the nearest value counts and valid is 0:", ranges)]
     if export.worst_error:
         over = "; ".join(_of_range(name, ends, export) for name, ends in export.measured_range.items())
         heading = f"worst error against the model at random points, {over}:"
-        found.append((heading, [_error(one) for one in export.worst_error]))
-    return found
+        pairs.append((heading, [_error(one) for one in export.worst_error]))
+    return pairs
 
 
 def _ends(name: str, ends: tuple[float, float], export: Export) -> str:

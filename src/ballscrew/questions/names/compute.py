@@ -46,11 +46,11 @@ def _subject(case: Case | None) -> Configuration:
 
 
 def _grades(_: Case | None) -> list[Name]:
-    found: list[Name] = []
+    result: list[Name] = []
     for grade in grades():
         oil = Lubricant.from_grade(grade, temperature=313.15)
-        found.append(Name("grade", grade, "", f"{1000 * float(oil.viscosity):.4g} mPa s at 40 °C"))
-    return found
+        result.append(Name("grade", grade, "", f"{1000 * float(oil.viscosity):.4g} mPa s at 40 °C"))
+    return result
 
 
 def _laws(_: Case | None) -> list[Name]:
@@ -62,8 +62,8 @@ def _laws(_: Case | None) -> list[Name]:
 
 
 def _coefficients(slot: str, name: str) -> str:
-    found = coefficients_of(slot, name)
-    return f" ({', '.join(found)})" if found else ""
+    coefficients = coefficients_of(slot, name)
+    return f" ({', '.join(coefficients)})" if coefficients else ""
 
 
 def _meaning(law: Any) -> str:
@@ -83,8 +83,8 @@ def _inputs(case: Case | None) -> list[Name]:
 
 
 def _outputs(case: Case | None) -> list[Name]:
-    found = known_outputs(_subject(case).nut)
-    return [_of("output", name, output.quantity) for name, output in found.items()]
+    result = known_outputs(_subject(case).nut)
+    return [_of("output", name, output.quantity) for name, output in result.items()]
 
 
 def _of(group: str, name: str, quantity: Quantity) -> Name:
@@ -101,6 +101,6 @@ KINDS: Mapping[str, Callable[[Case | None], list[Name]]] = {
 }
 
 
-def document(kind: str, found: Sequence[Name]) -> dict[str, Any]:
+def document(kind: str, result: Sequence[Name]) -> dict[str, Any]:
     """The names of a kind, with their groups, SI units and meanings."""
-    return {"results": {kind: [one._asdict() for one in found]}, "warnings": []}
+    return {"results": {kind: [one._asdict() for one in result]}, "warnings": []}

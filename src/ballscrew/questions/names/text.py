@@ -8,11 +8,11 @@ from itertools import groupby
 from ballscrew.questions.names.compute import Name
 
 
-def text(found: Sequence[Name]) -> str:
+def text(names: Sequence[Name]) -> str:
     """The names in columns: name, unit, meaning; a heading before each group where there are several."""
-    groups = [(group, list(each)) for group, each in groupby(found, key=lambda one: one.group)]
-    width = max((len(one.name) for one in found), default=0)
-    units = max((len(one.unit) for one in found), default=0)
+    groups = [(group, list(each)) for group, each in groupby(names, key=lambda one: one.group)]
+    width = max((len(one.name) for one in names), default=0)
+    units = max((len(one.unit) for one in names), default=0)
     lines: list[str] = []
     for group, each in groups:
         lines += [f"{group}:"] if len(groups) > 1 else []

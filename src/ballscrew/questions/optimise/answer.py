@@ -55,28 +55,28 @@ class Front:
     search: Search
 
 
-def document(found: Optimisation) -> dict[str, Any]:
+def document(optimisation: Optimisation) -> dict[str, Any]:
     """The document in SI; ``results`` and ``checks`` of a member are those of ``ballscrew check --json``."""
-    space = found.space
-    first = check_documents.list_document([found.members[0].checked])[0] if found.members else {}
+    space = optimisation.space
+    first = check_documents.list_document([optimisation.members[0].checked])[0] if optimisation.members else {}
     units = {name: unit for name, unit in first.get("units", {}).items() if name != "loads"}
     search = from_attributes(
         Search,
         space.options,
-        evaluations=found.evaluations,
-        front=len(found.front.designs),
-        engine=found.engine[0],
-        engine_reason=found.engine[1],
-        largest_change=found.largest_change,
+        evaluations=optimisation.evaluations,
+        front=len(optimisation.front.designs),
+        engine=optimisation.engine[0],
+        engine_reason=optimisation.engine[1],
+        largest_change=optimisation.largest_change,
     )
     return {
-        "need": need_document(found.need),
+        "need": need_document(optimisation.need),
         **declared.document(
             from_attributes(Front, space, objectives=[objective(name) for name in space.objectives], search=search)
         ),
-        "candidates": [_member(member) for member in found.members],
-        "notes": list(found.notes),
-        "warnings": documents(warnings(found)),
+        "candidates": [_member(member) for member in optimisation.members],
+        "notes": list(optimisation.notes),
+        "warnings": documents(warnings(optimisation)),
         "units": {
             **units,
             "variables": {name: quantity.unit for name, quantity in VARIABLES.items()},

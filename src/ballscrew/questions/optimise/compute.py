@@ -133,9 +133,7 @@ class Optimisation:
             name: [(each.objectives[name], each.searched[name]) for each in self.members if each.searched[name]]
             for name in self.space.objectives
         }
-        return {
-            name: max(abs(full / searched - 1) for full, searched in found) for name, found in pairs.items() if found
-        }
+        return {name: max(abs(full / searched - 1) for full, searched in each) for name, each in pairs.items() if each}
 
 
 def optimise(
@@ -185,7 +183,7 @@ def optimise(
     ready = DesignModel.of(case, asked, space, _length(asked, case), engine)
     own = space.options
     told = done or _untold
-    found = search(
+    match = search(
         ready.costs,
         space.lower,
         space.upper,
@@ -195,23 +193,23 @@ def optimise(
         done=lambda finished: told(finished, planned.total),
     )
     elastic = ready.elastic
-    evaluations = found.evaluations
+    evaluations = match.evaluations
     if elastic is not None and own.elastic_generations:
-        found = search(
+        match = search(
             elastic.costs,
             space.lower,
             space.upper,
             population=int(own.population),
             generations=int(own.elastic_generations),
             seed=int(own.seed),
-            start=found.population,
+            start=match.population,
             done=lambda finished: told(planned.rigid + finished, planned.total),
         )
-        evaluations += found.evaluations
-    places = spread(found.costs, int(own.members))
+        evaluations += match.evaluations
+    places = spread(match.costs, int(own.members))
     made: list[Member] = []
     for number, place in enumerate(places, start=1):
-        made.append(_member(asked, space, ready, found, place, options))
+        made.append(_member(asked, space, ready, match, place, options))
         told(evaluations + number, evaluations + len(places))
     notes = [*asked.notes, *space.notes]
     if len(asked.oils) > 1:
@@ -221,7 +219,7 @@ def optimise(
         space,
         _marked(made, space.objectives),
         evaluations,
-        found,
+        match,
         (ready.friction.engine, ready.friction.engine_reason),
         notes,
     )
@@ -326,10 +324,10 @@ def _length(need: Need, case: Case) -> float:
 
 
 def _member(
-    need: Need, space: DesignSpace, ready: DesignModel, found: Found, place: int, options: Mapping[str, Any]
+    need: Need, space: DesignSpace, ready: DesignModel, result: Found, place: int, options: Mapping[str, Any]
 ) -> Member:
     """A design of the front by the full model."""
-    x = found.designs[place : place + 1]
+    x = result.designs[place : place + 1]
     variables = {name: float(values[0]) for name, values in space.columns(x).items()}
     designs = ready.designs(x)
     preload, balls = float(designs.preload[0]), float(designs.loaded_balls[0])
@@ -339,7 +337,7 @@ def _member(
     numbers = objectives_of(need, whole, None)
     searched = {
         name: OBJECTIVES[name].sign * float(cost)
-        for name, cost in zip(space.objectives, found.costs[place], strict=True)
+        for name, cost in zip(space.objectives, result.costs[place], strict=True)
     }
     checks = (
         *whole.checks,

@@ -119,7 +119,7 @@ class DesignModel:
         density = STEEL_DENSITY if self.case.installation is None else self.case.installation.shaft_density
         bore = 0.0 if self.case.surroundings is None else self.case.surroundings.bore
         inertia = shaft_inertia(designs.pitch_circle_diameter, bore, self.length, density)
-        found = {
+        objectives = {
             "loss": at["friction_power"],
             "inertia": inertia,
             "reflected_mass": reflected_mass(inertia, designs.lead),
@@ -127,17 +127,17 @@ class DesignModel:
             "drive_torque": np.abs(at["drive_torque"]),
         }
         if "life" in wanted:
-            found["life"] = self._life(designs, speed, at)
+            objectives["life"] = self._life(designs, speed, at)
         if "preload_torque" in wanted:
-            found["preload_torque"] = self._idle(designs, speed)
-        return found
+            objectives["preload_torque"] = self._idle(designs, speed)
+        return objectives
 
     def utilisations(
         self, designs: Designs, speed: Numbers, at: Mapping[str, Numbers], numbers: Mapping[str, Numbers]
     ) -> dict[str, Numbers]:
         """Demand over capacity of all checks and requirements, by name, at the central inputs."""
         required, case = self.requirements, self.case
-        found = designs.utilisations(
+        utilisations = designs.utilisations(
             axial_load=float(case.operation.axial_load),
             screw_speed=speed,
             left=at["remaining_preload"],
@@ -147,25 +147,25 @@ class DesignModel:
             limits=case.limits,
         )
         if self.space.nut in PRELOADED:
-            found["preload"] = preload_used(
+            utilisations["preload"] = preload_used(
                 designs.preload, at["remaining_preload"], float(case.operation.axial_load), at["lift_off_load"]
             )
         if required.largest_drive_torque is not None:
-            found["drive_torque"] = numbers["drive_torque"] / required.largest_drive_torque
+            utilisations["drive_torque"] = numbers["drive_torque"] / required.largest_drive_torque
         if required.largest_preload_torque is not None:
-            found["preload_torque"] = numbers["preload_torque"] / required.largest_preload_torque
+            utilisations["preload_torque"] = numbers["preload_torque"] / required.largest_preload_torque
         if required.least_rigidity is not None:
-            found["rigidity"] = required.least_rigidity / numbers["rigidity"]
+            utilisations["rigidity"] = required.least_rigidity / numbers["rigidity"]
         if required.least_remaining_preload is not None:
             with np.errstate(divide="ignore"):
-                found["remaining_preload"] = required.least_remaining_preload / at["remaining_preload"]
+                utilisations["remaining_preload"] = required.least_remaining_preload / at["remaining_preload"]
         if required.largest_inertia is not None and shaft_length(required, case) is not None:
-            found["inertia"] = numbers["inertia"] / required.largest_inertia
+            utilisations["inertia"] = numbers["inertia"] / required.largest_inertia
         if required.largest_step is not None and required.counts_per_turn is not None:
-            found["step"] = designs.lead / required.counts_per_turn / required.largest_step
+            utilisations["step"] = designs.lead / required.counts_per_turn / required.largest_step
         if required.back_driving != ALLOWED:
-            found["back_driving"] = self._back_driving(designs, at)
-        return found
+            utilisations["back_driving"] = self._back_driving(designs, at)
+        return utilisations
 
     # -- parts --------------------------------------------------------------------------------------
 
@@ -192,7 +192,7 @@ class DesignModel:
         case, count = self.elastic_case, len(given["loaded_balls"])
         assert case is not None
         outputs = [name for name in _OUTPUTS if name != "lift_off_load"]
-        found = {name: np.zeros(count, dtype=bool if name == "valid" else float) for name in outputs}
+        numbers = {name: np.zeros(count, dtype=bool if name == "valid" else float) for name in outputs}
         names = tuple(name for name in (*_SIZES, "preload", *_POINT) if name != "loaded_balls")
         names = names if "preload" in self.space.names else tuple(name for name in names if name != "preload")
         for number in np.unique(given["loaded_balls"]):
@@ -209,8 +209,8 @@ class DesignModel:
                 )
             of_these = kept[balls](*(given[name][here] for name in names))
             for name, values in of_these.items():
-                found[name][here] = values
-        return found
+                numbers[name][here] = values
+        return numbers
 
     def _idle(self, designs: Designs, speed: Numbers) -> Numbers:
         """Torque of the nut without load, at the speed."""
@@ -243,12 +243,12 @@ class DesignModel:
 
     def _makeable(self, designs: Designs) -> list[Numbers]:
         """Ratios of sizes within those of the catalogue, and room between neighbouring turns."""
-        found = [designs.room - 1]
+        makeable = [designs.room - 1]
         for name, (low, high) in self.space.ratios.items():
             one, other = RATIOS[name]
             ratio = getattr(designs, one) / getattr(designs, other)
-            found += [low / ratio - 1, ratio / high - 1]
-        return found
+            makeable += [low / ratio - 1, ratio / high - 1]
+        return makeable
 
     def _quantiles(self, designs: Designs, speed: Numbers, central: Mapping[str, Numbers]) -> dict[str, Numbers]:
         """The quantile, on the bad side, of the objectives that the model has a say in.
@@ -258,18 +258,18 @@ class DesignModel:
         assert self.sampled is not None
         rigid = dataclasses.replace(self, by_balls=None)
         wanted = [name for name in self.space.objectives if name in OF_MODEL]
-        load, found = float(self.case.operation.axial_load), dict[str, Numbers]()
+        load, quantiles = float(self.case.operation.axial_load), dict[str, Numbers]()
         if {*wanted} - {"preload_torque"}:
             at = rigid._at(designs, load, speed, self.sampled.factors)
             read = {"loss": "friction_power", "rigidity": "rigidity", "drive_torque": "drive_torque"}
-            found = {name: _quantile(np.abs(at[read[name]]), name, self.sampled) for name in wanted if name in read}
+            quantiles = {name: _quantile(np.abs(at[read[name]]), name, self.sampled) for name in wanted if name in read}
         if "preload_torque" in wanted:
             idle = rigid._at(designs, 0.0, speed, self.sampled.factors)["screw_torque"]
-            found["preload_torque"] = _quantile(idle, "preload_torque", self.sampled)
+            quantiles["preload_torque"] = _quantile(idle, "preload_torque", self.sampled)
         if self.by_balls is not None:
             alike = rigid.objectives(designs, speed, rigid._at(designs, load, speed))
-            found = {name: value / alike[name] * central[name] for name, value in found.items()}
-        return found
+            quantiles = {name: value / alike[name] * central[name] for name, value in quantiles.items()}
+        return quantiles
 
 
 def _quantile(values: Numbers, name: str, sampled: Sampled) -> Numbers:

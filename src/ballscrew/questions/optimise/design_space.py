@@ -178,7 +178,7 @@ def _bounds(given: Any, usual: Mapping[str, Span], nut: Any, faults: list[Fault]
     if not isinstance(given, Mapping):
         faults.append(Fault("optimise.bounds", "must be a table", str(given), "write [optimise.bounds]"))
         return {}
-    found: dict[str, Span] = {}
+    bounds: dict[str, Span] = {}
     for name, ends in given.items():
         where = f"optimise.bounds.{name}"
         if name not in usual:
@@ -197,8 +197,8 @@ def _bounds(given: Any, usual: Mapping[str, Span], nut: Any, faults: list[Fault]
                     Fault(where, "is not a lower and an upper bound above zero", str(ends), f"write {sample}")
                 )
             else:
-                found[name] = (values[0], values[1])
-    return found
+                bounds[name] = (values[0], values[1])
+    return bounds
 
 
 def _number(where: str, quantity: Quantity, raw: Any) -> float | Fault:

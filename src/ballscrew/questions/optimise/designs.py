@@ -93,9 +93,9 @@ class Designs:
         # the life says what the running time does
         is_asked = limits.running_time is not None
         rows = [row for row in CHECKS if row.name != "life" and (RUNNING_TIME not in row.takes or is_asked)]
-        found = {row.name: row.finds(values) for row in rows}
+        result = {row.name: row.finds(values) for row in rows}
         shape = load_shape(self)
-        return {name: np.broadcast_to(one["utilisation"], shape) for name, one in found.items() if one is not None}
+        return {name: np.broadcast_to(one["utilisation"], shape) for name, one in result.items() if one is not None}
 
 
 def load_shape(designs: Designs) -> tuple[int, ...]:

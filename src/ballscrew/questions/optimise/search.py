@@ -65,14 +65,14 @@ def search(
                 done(min(evaluated, count))
 
     first = {} if start is None else {"sampling": start}
-    found = pymoo.minimize(
+    result = pymoo.minimize(
         Problem(), pymoo.NSGA2(pop_size=population, **first), ("n_gen", generations), seed=seed, verbose=False
     )
-    last = np.asarray(found.pop.get("X"), dtype=float)
-    if found.X is None:
+    last = np.asarray(result.pop.get("X"), dtype=float)
+    if result.X is None:
         return Found(np.empty((0, len(lower))), np.empty((0, costs.shape[1])), count, last)
-    designs = np.atleast_2d(found.X).astype(float)
-    return Found(designs, np.atleast_2d(found.F).astype(float), count, last)
+    designs = np.atleast_2d(result.X).astype(float)
+    return Found(designs, np.atleast_2d(result.F).astype(float), count, last)
 
 
 def _sound(costs: Numbers, constraints: Numbers) -> tuple[Numbers, Numbers]:
@@ -93,7 +93,7 @@ class _Pymoo(NamedTuple):
 
 def _pymoo() -> _Pymoo:
     try:
-        found = [
+        result = [
             getattr(importlib.import_module(f"pymoo.{module}"), name)
             for module, name in (
                 ("core.problem", "Problem"),
@@ -103,7 +103,7 @@ def _pymoo() -> _Pymoo:
         ]
     except ImportError:
         raise InputError(Fault("optimise", "needs pymoo", "", 'pip install "ballscrew[optimise]"')) from None
-    return _Pymoo(*found)
+    return _Pymoo(*result)
 
 
 def spread(costs: Numbers, most: int) -> list[int]:

@@ -13,9 +13,9 @@ from ballscrew.questions.shared.charts import Columns, Plot
 _BAR = 0.5
 
 
-def band_and_rules(found: PreloadedNut) -> Figure:
+def band_and_rules(preloaded_nut: PreloadedNut) -> Figure:
     """The band of the model as a bar, with its value and its median; below it a point for each rule."""
-    here = found.unloaded
+    here = preloaded_nut.unloaded
     torque = here.band.band["screw_torque"]
     caption = (
         f"{descriptions.title(here.case)}; {descriptions.design(here.case)}. Bar: {words.level(here)} of "
@@ -28,7 +28,7 @@ def band_and_rules(found: PreloadedNut) -> Figure:
     panel.plot([torque.median] * 2, ends, color=charts.INK, linestyle=":", label="median of the samples")
     panel.plot([torque.value] * 2, ends, color=charts.INK, label="at the values of the case")
     labels = ["reference model"]
-    rules = found.rules
+    rules = preloaded_nut.rules
     for place, one in enumerate(rules, start=1):
         colour = charts.RED if one.beside.by_rule.is_own else charts.ORANGE
         panel.plot(float(one.beside.by_rule.torque), place, "o", color=colour)
@@ -44,9 +44,9 @@ def band_and_rules(found: PreloadedNut) -> Figure:
     return figure
 
 
-def _columns(found: PreloadedNut) -> Columns:
-    torque = found.unloaded.band.band["screw_torque"]
-    rules = found.rules
+def _columns(preloaded_nut: PreloadedNut) -> Columns:
+    torque = preloaded_nut.unloaded.band.band["screw_torque"]
+    rules = preloaded_nut.rules
     return {
         "of": ["reference model", *(words.label_of(one) for one in rules)],
         f"{words.DRAG} (N m)": [torque.value, *(float(one.beside.by_rule.torque) for one in rules)],

@@ -58,26 +58,26 @@ $ ballscrew check {file}
 """
 
 
-def lines(found: PreloadedNut) -> list[str]:
+def lines(preloaded_nut: PreloadedNut) -> list[str]:
     """The nut, the model without load with its band, each rule, and the nut under load."""
-    here, loaded = found.unloaded, found.loaded
+    here, loaded = preloaded_nut.unloaded, preloaded_nut.loaded
     rows = [
         (f"{DRAG}, {operating_point(here.case)}", "", f"{level(here)} band"),
         (" reference model", *value_and_band(here, _TORQUE)),
-        *((f" {label_of(one)}", torque_of(one, here), _is_held(one)) for one in found.rules),
+        *((f" {label_of(one)}", torque_of(one, here), _is_held(one)) for one in preloaded_nut.rules),
         (f"under load, {operating_point(loaded.case)}", "", ""),
         *((f" {_quantity(loaded, name).info.meaning}", *value_and_band(loaded, name)) for name in _SHOWN),
     ]
     return [
-        f"The model reference on a preloaded nut ({_row(found)}, {nut_text(loaded.case.screw.nut)}):",
+        f"The model reference on a preloaded nut ({_row(preloaded_nut)}, {nut_text(loaded.case.screw.nut)}):",
         *(f"  {line}" for line in aligned(rows)),
-        f"  {contradiction_of(found)}",
+        f"  {contradiction_of(preloaded_nut)}",
     ]
 
 
-def page(found: PreloadedNut) -> str:
+def page(preloaded_nut: PreloadedNut) -> str:
     """The page, in Markdown."""
-    here, loaded = found.unloaded, found.loaded
+    here, loaded = preloaded_nut.unloaded, preloaded_nut.loaded
     drag = [
         ("**reference model**", *value_and_band(here, _TORQUE), "", ""),
         *(
@@ -85,12 +85,12 @@ def page(found: PreloadedNut) -> str:
                 label_of(one), torque_of(one, here), _is_held(one), f"{one.beside.ratio:.2f}",
                 one.beside.by_rule.rule.range,
             )
-            for one in found.rules
+            for one in preloaded_nut.rules
         ),
     ]  # fmt: skip
     of_load = [(_quantity(loaded, name).info.meaning, *value_and_band(loaded, name)) for name in _SHOWN]
     return _PAGE.format(
-        row=_row(found),
+        row=_row(preloaded_nut),
         nut=nut_text(loaded.case.screw.nut),
         file=CASE_FILE,
         picture=PICTURE,
@@ -98,7 +98,7 @@ def page(found: PreloadedNut) -> str:
             (DRAG, "value", f"{level(here)} band", "model / rule", "range or tolerance, as stated"), drag, numbers=True
         ),
         point=operating_point(here.case),
-        contradiction=sentence(contradiction_of(found)),
+        contradiction=sentence(contradiction_of(preloaded_nut)),
         loaded=markdown_table(("", "value", f"{level(loaded)} band"), of_load, numbers=True),
         loaded_point=operating_point(loaded.case),
         counts=input_counts(loaded.band),
@@ -118,31 +118,31 @@ def torque_of(one: RuleBesideBand, here: Banded) -> str:
     return shown_or_dash(float(one.beside.by_rule.torque), _quantity(here, _TORQUE))
 
 
-def level(found: Banded) -> str:
+def level(banded: Banded) -> str:
     """``95 %``."""
-    return f"{100 * found.band.band.level:.4g} %"
+    return f"{100 * banded.band.band.level:.4g} %"
 
 
-def value_and_band(found: Banded, name: str) -> tuple[str, str]:
+def value_and_band(banded: Banded, name: str) -> tuple[str, str]:
     """An output at the values of the case, and the ends of its band."""
-    quantity, one = _quantity(found, name), found.band.band[name]
+    quantity, one = _quantity(banded, name), banded.band.band[name]
     return shown_or_dash(one.value, quantity), " to ".join(ends_or_dashes(*one.both, quantity))
 
 
-def contradiction_of(found: PreloadedNut) -> str:
+def contradiction_of(preloaded_nut: PreloadedNut) -> str:
     """By how much the rules contradict each other."""
-    return contradiction([one.beside for one in found.rules])
+    return contradiction([one.beside for one in preloaded_nut.rules])
 
 
 def _is_held(one: RuleBesideBand) -> str:
     return "within it" if one.is_in_band else "outside it"
 
 
-def _quantity(found: Banded, name: str) -> Quantity:
-    return known_outputs(found.case.screw.nut)[name].quantity
+def _quantity(banded: Banded, name: str) -> Quantity:
+    return known_outputs(banded.case.screw.nut)[name].quantity
 
 
-def _row(found: PreloadedNut) -> str:
-    row = found.loaded.case.row
+def _row(preloaded_nut: PreloadedNut) -> str:
+    row = preloaded_nut.loaded.case.row
     assert row is not None, "the case has a row"
     return row.name

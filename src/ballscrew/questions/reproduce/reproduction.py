@@ -148,7 +148,7 @@ def _write(folder: _Folder, report: Report) -> list[str]:
     # in memory first: on a full disk HDF5 ends worse than in an OSError
     (folder.path / "data.nc").write_bytes(data.to_netcdf(engine="h5netcdf"))
     step("curves of the figures")
-    found, checks = paper.claims(), paper.closure_checks()
+    result, checks = paper.claims(), paper.closure_checks()
     step("claims of the paper")
     nut = nuts.preloaded_nut()
     step("a preloaded nut by the reference model")
@@ -164,9 +164,9 @@ def _write(folder: _Folder, report: Report) -> list[str]:
             step(plot.name)
     _write_text(folder.path / nuts.CASE_FILE, nuts.CASE)
     _write_text(folder.path / nut_words.PAGE_FILE, nut_words.page(nut))
-    _write_text(folder.path / "claims.md", claims_document(found, checks, names))
+    _write_text(folder.path / "claims.md", claims_document(result, checks, names))
     step("claims.md")
-    return [f"The paper: {counts(found)}.", *nut_words.lines(nut)]
+    return [f"The paper: {counts(result)}.", *nut_words.lines(nut)]
 
 
 def _write_text(path: Path, text: str) -> None:
@@ -189,9 +189,9 @@ def _cell(value: Any) -> str:
 # -- words ----------------------------------------------------------------------------------------
 
 
-def claims_table(found: Sequence[paper.Claim] | None = None, keys: Sequence[str] | None = SHORT_TABLE) -> str:
+def claims_table(claims: Sequence[paper.Claim] | None = None, keys: Sequence[str] | None = SHORT_TABLE) -> str:
     """The claims as a short table in Markdown, those that fail first; ``keys=None`` takes all, in the paper's order."""
-    every = paper.claims() if found is None else found
+    every = paper.claims() if claims is None else claims
     chosen = [claim for claim in every if keys is None or claim.key in keys]
     if keys is not None:
         chosen.sort(key=lambda claim: min(_FAILURES_FIRST.index(claim.findings[name].verdict) for name in _MODELS))
@@ -208,7 +208,7 @@ def _holds(claim: paper.Claim) -> str:
 
 
 def claims_document(
-    found: Sequence[paper.Claim], checks: Sequence[paper.ClosureCheck], figures: Sequence[str] = ()
+    claims: Sequence[paper.Claim], checks: Sequence[paper.ClosureCheck], figures: Sequence[str] = ()
 ) -> str:
     """All of it in words: claims, choices, other readings, and the verdict on each equation."""
     sections = [
@@ -219,14 +219,14 @@ def claims_document(
         "square root of (22) in §4.\n",
         "No value can be read off the paper's figures, so curves are compared with its text only.\n",
         "## What holds, and what it means\n",
-        f"{sentence(counts(found))}.\n",
-        _meaning(found),
+        f"{sentence(counts(claims))}.\n",
+        _meaning(claims),
         "## Claims\n",
-        claims_table(found, None),
+        claims_table(claims, None),
         "Numbers in brackets are equations of the paper.\n",
         markdown_table(("symbol", "meaning"), _SYMBOLS),
         "## Claims in detail\n",
-        *(_detail(claim) for claim in found),
+        *(_detail(claim) for claim in claims),
         "## What the paper leaves open, and what was taken\n",
         markdown_table(("what", "taken", "why"), [(c.what, c.taken, c.why) for c in paper.CHOICES]),
         "## Other readings of what it leaves open\n",
@@ -256,21 +256,21 @@ def claims_document(
     return "\n".join(sections)
 
 
-def counts(found: Sequence[paper.Claim]) -> str:
+def counts(claims: Sequence[paper.Claim]) -> str:
     """``as printed, 13 of 22 claims hold, 5 do not hold and 4 cannot be checked; corrected, 11, 7 and 4``."""
-    tallies = [collections.Counter(claim.findings[name].verdict for claim in found) for name in _MODELS]
+    tallies = [collections.Counter(claim.findings[name].verdict for claim in claims) for name in _MODELS]
     printed, corrected = ([tally[verdict] for verdict in _COUNTED] for tally in tallies)
     return (
-        f"{_LABELS[0]}, {printed[0]} of {len(found)} claims hold, {printed[1]} do not hold and {printed[2]} cannot be "
+        f"{_LABELS[0]}, {printed[0]} of {len(claims)} claims hold, {printed[1]} do not hold and {printed[2]} cannot be "
         "checked; "
         f"{_LABELS[1]}, {corrected[0]}, {corrected[1]} and {corrected[2]}"
     )
 
 
-def _meaning(found: Sequence[paper.Claim]) -> str:
+def _meaning(claims: Sequence[paper.Claim]) -> str:
     """What the verdicts mean to a reader who wants to use the paper."""
-    shown = {claim.key: [claim.findings[name].short for name in _MODELS] for claim in found}
-    stated = {claim.key: claim.paper for claim in found}
+    shown = {claim.key: [claim.findings[name].short for name in _MODELS] for claim in claims}
+    stated = {claim.key: claim.paper for claim in claims}
     (minimum, corrected_minimum), (efficiency, corrected), (film, _) = (
         shown[key] for key in ("minimum", "efficiency", "threshold")
     )

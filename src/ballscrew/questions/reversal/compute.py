@@ -130,7 +130,7 @@ class ReversalReport:
         else:
             end = units.shown(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
             text = f"{start} less than {share} of the friction is back within {end}"
-        found = [Record(text=text, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
+        verdicts = [Record(text=text, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
         two = self.slip_elements[0]
         if self.dahl_first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
             first = units.shown(self.dahl_first.model.presliding_stiffness, STIFFNESS, 3)
@@ -140,7 +140,7 @@ class ReversalReport:
                 "than 0.1 mm; with the latter the torque is off by up to "
                 f"{units.percent(self.dahl.error.largest)} of the steady one"
             )
-            found.append(
+            verdicts.append(
                 Record(
                     text=text,
                     id="reversal.one_stiffness",
@@ -152,26 +152,28 @@ class ReversalReport:
         text = f"one Maxwell-slip element is off by up to {off}"
         if len(two.elements) > 1:
             text = f"{len(two.elements)} Maxwell-slip elements are off by up to {off}"
-        found.append(Record(text=text, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest))
-        return found
+        verdicts.append(
+            Record(text=text, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest)
+        )
+        return verdicts
 
     @property
     def warnings(self) -> list[Record]:
         """That the helix part is a hypothesis, what is known of the first range, and implausible inputs."""
-        found: list[Record] = []
+        records: list[Record] = []
         if self.crosses:
             text = (
                 "helix slip that comes back over degrees of the screw is a hypothesis: it is computed, and the log of "
                 "one axis (EMPS: guides, an unknown screw) is all that speaks for it"
             )
-            found.append(Record(text=text, id="reversal.hypothesis", subject="helix", severity="warning"))
+            records.append(Record(text=text, id="reversal.hypothesis", subject="helix", severity="warning"))
         ratio = float(self.reversal.bristles_over_model)
         if abs(ratio - 1) > BRISTLES_OFF:
             text = (
                 f"the bristles that the curve is computed with have {units.percent(ratio)} of the steady slip torque "
                 "of the model, to which the curve is scaled: its shape is as uncertain"
             )
-            found.append(
+            records.append(
                 Record(
                     text=text,
                     id="reversal.bristles",
@@ -191,12 +193,12 @@ class ReversalReport:
                 "have no memory of turning points: no elements have both the curve and the work of all strokes"
             )
             worst = max(fit.work_error for fit in self.slip_elements)
-            found.append(
+            records.append(
                 Record(text=text, id="reversal.work_of_elements", subject="slip_elements", severity="info", value=worst)
             )
         text = "the stiffness of the first hundredths of a degree is known to a factor of three"
-        found.append(Record(text=text, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
-        return [*found, *self.case.implausible()]
+        records.append(Record(text=text, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
+        return [*records, *self.case.implausible()]
 
 
 @overflow_as_input_error()
@@ -210,7 +212,7 @@ def reversal(case: Case, options: ReversalOptions) -> ReversalReport:
     if not speed:
         remedy = 'give the speed that it turns with: --set operation.screw_speed="10 rpm"'
         raise InputError(Fault("operation.screw_speed", "must not be zero", "0 rpm", remedy))
-    found = moving_balls.reversal(
+    result = moving_balls.reversal(
         case.model,
         case.screw,
         case.lubricant,
@@ -224,23 +226,23 @@ def reversal(case: Case, options: ReversalOptions) -> ReversalReport:
         case.model,
         case.screw,
         case.lubricant,
-        found,
+        result,
         axial_load=case.operation.axial_load,
         screw_speed=speed,
         gap=options.gap,
     )
-    return of(case, found, options, loops)
+    return of(case, result, options, loops)
 
 
 def of(
-    case: Case, found: moving_balls.Reversal, options: ReversalOptions, loops: Sequence[moving_balls.Loop] = ()
+    case: Case, result: moving_balls.Reversal, options: ReversalOptions, loops: Sequence[moving_balls.Loop] = ()
 ) -> ReversalReport:
     """The report of a reversal that is known, and of the ``loops`` of short strokes."""
-    curve = WindingUp.of(found, loops)
+    curve = WindingUp.of(result, loops)
     fits = (fit_slip_elements(curve, count) for count in COUNTS)
     return ReversalReport(
         case=case,
-        reversal=found,
+        reversal=result,
         curve=curve,
         dahl_first=fit_dahl_first(curve),
         dahl=fit_dahl(curve),

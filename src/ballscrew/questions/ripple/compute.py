@@ -82,7 +82,7 @@ class RippleReport:
     @lazy
     def verdicts(self) -> Sequence[Record]:
         """The size of the ripple and its greatest order, and whether torque shows each fault."""
-        return [self._size(), *(self._fault(name, found) for name, found in self.faults.items())]
+        return [self._size(), *(self._fault(name, each) for name, each in self.faults.items())]
 
     @lazy
     def assumed(self) -> Sequence[str]:
@@ -96,18 +96,18 @@ class RippleReport:
         ]
 
     def _size(self) -> Record:
-        found = self.ripple
-        most = max(found.orders, key=lambda one: one.amplitude)
+        ripple = self.ripple
+        most = max(ripple.orders, key=lambda one: one.amplitude)
         message = (
-            f"the torque goes up and down by {_torque(found.peak_to_peak)}, {units.percent(found.relative)} of its "
+            f"the torque goes up and down by {_torque(ripple.peak_to_peak)}, {units.percent(ripple.relative)} of its "
             f"mean; its greatest order is {most.order:.3g} per turn ({most.name}), {_torque(most.amplitude)}"
         )
-        return Record(text=message, id="ripple.size", subject="peak_to_peak", value=found.peak_to_peak, unit="N m")
+        return Record(text=message, id="ripple.size", subject="peak_to_peak", value=ripple.peak_to_peak, unit="N m")
 
-    def _fault(self, name: str, found: Ripple) -> Record:
-        shown = shows(self.ripple, found)
-        mean = units.percent(found.mean / self.ripple.mean)
-        range_over_mean = units.percent(found.relative / self.ripple.relative)
+    def _fault(self, name: str, ripple: Ripple) -> Record:
+        shown = shows(self.ripple, ripple)
+        mean = units.percent(ripple.mean / self.ripple.mean)
+        range_over_mean = units.percent(ripple.relative / self.ripple.relative)
         message = (
             f"{name}: torque {'shows it' if shown else 'is a poor sensor of it'}, its mean is {mean} and its range "
             f"over the mean {range_over_mean} of what they were"
@@ -115,9 +115,9 @@ class RippleReport:
         return Record(text=message, id=f"ripple.{name.partition('=')[0]}", subject="torque", holds=shown)
 
 
-def shows(usual: Ripple, found: Ripple) -> bool:
+def shows(usual: Ripple, ripple: Ripple) -> bool:
     """Whether the torque of a nut with a fault differs from that without it by more than nuts of one kind do."""
-    mean, change = found.mean / usual.mean, found.relative / usual.relative
+    mean, change = ripple.mean / usual.mean, ripple.relative / usual.relative
     return abs(mean - 1) > SHOWS_MEAN or abs(change - 1) > SHOWS_RANGE
 
 
@@ -137,10 +137,10 @@ def ripple_of(case: Case, options: RippleOptions, done: Callable[[int, int], Non
     total, counted = len(defects) + options.seeds, itertools.count(1)
 
     def run(defect: Defect | None = None, seed: int = options.seed) -> Ripple:
-        found = torque_ripple(case.model, case.screw, case.lubricant, **given, seed=seed, defect=defect)
+        ripple = torque_ripple(case.model, case.screw, case.lubricant, **given, seed=seed, defect=defect)
         if done is not None:
             done(next(counted), total)
-        return found
+        return ripple
 
     with faults_named(_FLAGS):
         usual = run()
@@ -179,11 +179,11 @@ def _all_of(case: Case) -> list[str]:
     return [name for name in ALL if preloaded or not name.startswith("preload")]
 
 
-def _range(found: Sequence[Ripple]) -> Range | None:
-    if len(found) == 1:
+def _range(ripples: Sequence[Ripple]) -> Range | None:
+    if len(ripples) == 1:
         return None
-    low, median, high = np.quantile([one.peak_to_peak for one in found], (LOW, 0.5, HIGH))
-    return Range(len(found), float(low), float(median), float(high))
+    low, median, high = np.quantile([one.peak_to_peak for one in ripples], (LOW, 0.5, HIGH))
+    return Range(len(ripples), float(low), float(median), float(high))
 
 
 def _torque(value: float) -> str:
@@ -196,7 +196,7 @@ def _torque(value: float) -> str:
 def defects_of(written: Sequence[str]) -> Mapping[str, Defect]:
     """The faults by what was written. Raises :class:`~ballscrew.basis.errors.InputError` for unknown ones."""
     faults: list[Fault] = []
-    found: dict[str, Defect] = {}
+    defects: dict[str, Defect] = {}
     for one in written:
         name, _, value = (part.strip() for part in one.partition("="))
         reader = _READERS.get(name)
@@ -207,9 +207,9 @@ def defects_of(written: Sequence[str]) -> Mapping[str, Defect]:
         if isinstance(made, Fault):
             faults.append(made)
         else:
-            found[one] = made
+            defects[one] = made
     raise_if_any(faults)
-    return found
+    return defects
 
 
 def _plain(make: Callable[[], Defect]) -> Callable[[str, str], Defect | Fault]:

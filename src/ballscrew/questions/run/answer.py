@@ -69,8 +69,8 @@ class RunResults(table_of(_NUMBERS, at_times=OF_ONE_BALL)):
 
 def results(run: Run) -> RunResults:
     """The results of a run."""
-    found, nut, by_rule = run.friction, run.nut, by_rules(run.case)
-    numbers = {name: getattr(found, name) if name in run.quantities else None for name in _OF_RUN}
+    result, nut, by_rule = run.friction, run.nut, by_rules(run.case)
+    numbers = {name: getattr(result, name) if name in run.quantities else None for name in _OF_RUN}
     if nut is not None:
         numbers |= nut.drag_coefficients
     contacts = {side: Contact(**(dict.fromkeys(_OF_CONTACT) | dict(own))) for side, own in run.contacts.items()}
@@ -80,9 +80,9 @@ def results(run: Run) -> RunResults:
         preload_drag_of_balls=nut.drag_of_balls if nut is not None and nut.preload else None,
         rules=MakersRules(**{one.rule.name: one.torque for one in by_rule}) if by_rule else None,
         rule_of_make=next((one.rule.name for one in by_rule if one.is_own), None),
-        contributions=found.contributions,
+        contributions=result.contributions,
         quadrants=run.quadrants,
-        validity=found.validity,
+        validity=result.validity,
         **contacts,
     )
 

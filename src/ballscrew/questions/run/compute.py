@@ -142,16 +142,16 @@ class Run:
         except InputError:  # of a geometry that no standard has ratings for
             return []
         values = {"preload": self.nut.preload, "dynamic_load_rating": rating, "implausible_preload": False}
-        found = said([PRELOAD_ABOVE_RATING], values, {"rating_source": source})
+        result = said([PRELOAD_ABOVE_RATING], values, {"rating_source": source})
         # who has been told once that the number cannot be is not told twice
-        is_known = bool(found) and any(one.subject == "nut.preload" for one in case.implausible())
-        return [] if is_known else found
+        is_known = bool(result) and any(one.subject == "nut.preload" for one in case.implausible())
+        return [] if is_known else result
 
     @property
     def conditions(self) -> list[Record]:
         """The warnings of the friction but starvation, which is a verdict, those of the case, and a heavy preload."""
-        found = [record for record in self.friction.warning_records if record.id != starvation.STARVED]
-        return [*found, *self.case.doubts, *self._heavy_preload()]
+        values = [record for record in self.friction.warning_records if record.id != starvation.STARVED]
+        return [*values, *self.case.doubts, *self._heavy_preload()]
 
 
 # -- evaluation -----------------------------------------------------------------------------------
@@ -170,19 +170,19 @@ def _of_balls(case: Case) -> Run:
     def friction(speed: float) -> FrictionResult:
         return case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
 
-    found = friction(speed)
+    result = friction(speed)
     return Run(
         case=case,
-        friction=found,
-        at_rest=Holding.of(friction(0.0) if float(speed) and float(load) else found),
+        friction=result,
+        at_rest=Holding.of(friction(0.0) if float(speed) and float(load) else result),
         contacts={
             side: {name: float(getattr(state, name)) for name in quantities_of(RaceState)}
-            for side, state in (("screw", found.screw), ("nut", found.nut))
+            for side, state in (("screw", result.screw), ("nut", result.nut))
         },
-        touching=[Touching(1, float(case.screw.contact_angle), float(found.contact_load))],
-        rolling_share=float(found.rolling_share),
-        ball_to_ball_force=float(found.ball_to_ball_force),
-        quadrants=found.quadrants,
+        touching=[Touching(1, float(case.screw.contact_angle), float(result.contact_load))],
+        rolling_share=float(result.rolling_share),
+        ball_to_ball_force=float(result.ball_to_ball_force),
+        quadrants=result.quadrants,
     )
 
 
@@ -195,10 +195,10 @@ def with_nut(case: Case, nut: Nut) -> Run:
     def friction(load: Any, speed: Any) -> FrictionResult:
         return case.model(screw, case.lubricant, axial_load=load, screw_speed=speed)
 
-    found = friction(load, speed)
+    result = friction(load, speed)
     # at rest and without load: together, as a call of the model takes long by itself
     beside = friction(np.array([load, 0.0]), np.array([0.0, speed]))
-    loads, half = found.loads, np.shape(found.loads.balls)[-1] // nut.halves
+    loads, half = result.loads, np.shape(result.loads.balls)[-1] // nut.halves
     flanks = (
         _flank(loads.forward_load[:half], loads.forward_angle[:half], loads.balls[:half]),
         _flank(loads.backward_load[-half:], loads.backward_angle[-half:], loads.balls[-half:]),
@@ -206,13 +206,13 @@ def with_nut(case: Case, nut: Nut) -> Run:
     loaded, relieved = flanks if load >= 0 else flanks[::-1]
     return Run(
         case=dataclasses.replace(case, screw=screw),
-        friction=found,
-        at_rest=Holding.of(beside, (0,)) if float(speed) and float(load) else Holding.of(found),
-        contacts=_most_loaded(found),
-        touching=_touching(found),
+        friction=result,
+        at_rest=Holding.of(beside, (0,)) if float(speed) and float(load) else Holding.of(result),
+        contacts=_most_loaded(result),
+        touching=_touching(result),
         rolling_share=math.nan,
         ball_to_ball_force=None,
-        quadrants=found.quadrants,
+        quadrants=result.quadrants,
         nut=NutState(
             nut=nut,
             preload=float(preload_of(screw, nut)),
@@ -222,7 +222,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
             drag_coefficients={name: float(np.broadcast_to(getattr(beside, name), 2)[1]) for name in OF_IDLE_NUT},
             loads=loads,
             rigidity=_rigidity(case, screw, load),
-            maximum_pressure=float(found.maximum_pressure),
+            maximum_pressure=float(result.maximum_pressure),
             loaded=loaded,
             relieved=relieved,
         ),
@@ -246,9 +246,9 @@ def _flank(load: Any, angle: Any, balls: Any) -> Flank | None:
     return Flank(ends(load, balls), ends(angle[touches], balls[touches]))
 
 
-def _most_loaded(found: FrictionResult) -> dict[str, dict[str, float]]:
+def _most_loaded(friction_result: FrictionResult) -> dict[str, dict[str, float]]:
     """The contacts of the most loaded ball, on screw and nut."""
-    pair = max(found.pairs, key=lambda pair: float(np.max(pair.load)))
+    pair = max(friction_result.pairs, key=lambda pair: float(np.max(pair.load)))
     ball = int(np.argmax(pair.load))
     return {
         side: {name: _of_ball(getattr(contact, name), ball) for name in quantities_of(type(contact))}
@@ -256,10 +256,12 @@ def _most_loaded(found: FrictionResult) -> dict[str, dict[str, float]]:
     }
 
 
-def _touching(found: FrictionResult) -> list[Touching]:
+def _touching(friction_result: FrictionResult) -> list[Touching]:
     """The flanks that the most loaded ball touches; without load the one that it would touch first."""
-    nominal = float(found.ball_screw.contact_angle)
-    sides = zip((1, -1), touched(most_loaded_ball(found.loads), found.axial_load, nominal), strict=True)
+    nominal = float(friction_result.ball_screw.contact_angle)
+    sides = zip(
+        (1, -1), touched(most_loaded_ball(friction_result.loads), friction_result.axial_load, nominal), strict=True
+    )
     return [Touching(side, float(flank.angle), float(flank.load)) for side, flank in sides if flank.touches]
 
 

@@ -45,17 +45,17 @@ def beside_rules(case: Case, nut: NutState | None) -> Sequence[BesideRule]:
 
 def messages(case: Case, nut: NutState | None) -> list[str]:
     """The torque of the balls beside all rules, and by how much the rules contradict each other."""
-    found = beside_rules(case, nut)
-    if nut is None or not found:
+    result = beside_rules(case, nut)
+    if nut is None or not result:
         return []
-    rules = ", ".join(one.text for one in found)
-    torque = units.shown(nut.drag_of_balls, BY_RULE[found[0].by_rule.rule.name])
-    return [f"drag torque without seals {torque}; by the rules of makers: {rules}", contradiction(found)]
+    rules = ", ".join(one.text for one in result)
+    torque = units.shown(nut.drag_of_balls, BY_RULE[result[0].by_rule.rule.name])
+    return [f"drag torque without seals {torque}; by the rules of makers: {rules}", contradiction(result)]
 
 
-def contradiction(found: Sequence[BesideRule]) -> str:
+def contradiction(result: Sequence[BesideRule]) -> str:
     """By how much the rules contradict each other."""
-    torques = [float(one.by_rule.torque) for one in found]
+    torques = [float(one.by_rule.torque) for one in result]
     factor = units.fixed(max(torques) / min(torques), 2)
     return (
         f"the rules of makers contradict each other here by a factor of {factor}; none of them accounts for oil, "

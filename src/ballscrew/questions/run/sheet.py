@@ -361,14 +361,14 @@ def _rows(name: str, run: Run) -> list[list[Cell]]:
 
 def cells(name: str, run: Run) -> Cells:
     """The values of one screw in a file, by heading."""
-    nut, found = run.nut, results(run)
+    nut, result = run.nut, results(run)
     values: dict[str, tuple[Any, Any]] = {"name": (name, None), "nut": ("" if nut is None else kind_of(nut.nut), None)}
     values |= {_RESULT[field].name: (getattr(run.friction, field), _RESULT[field]) for field in _OF_ROW}
     values["preload"] = (None if nut is None else nut.preload, NUT_FIELDS["preload"])
     values["torque without load"] = (None if nut is None else nut.preload_drag, _TORQUE)
-    values["torque without load of balls"] = (found.preload_drag_of_balls, _TORQUE)
+    values["torque without load of balls"] = (result.preload_drag_of_balls, _TORQUE)
     for name_of_rule, quantity in BY_RULE.items():
-        torque = None if found.rules is None else getattr(found.rules, name_of_rule)
+        torque = None if result.rules is None else getattr(result.rules, name_of_rule)
         values[f"torque without load by {RULES[name_of_rule].label}"] = (torque, quantity)
     values["rigidity"] = (None if nut is None else nut.loads.rigidity, _LOADS["rigidity"])
     if run.is_starved:

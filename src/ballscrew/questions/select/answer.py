@@ -148,33 +148,33 @@ class OfMotion:
 
 def candidate(ranked: Ranked, verdict: str, case: Mapping[str, Any]) -> OneCandidate:
     """A candidate with its rank, all checks in a few words, and its case file."""
-    found, row = ranked.candidate, ranked.candidate.variant.row
+    result, row = ranked.candidate, ranked.candidate.variant.row
     return from_attributes(
         OneCandidate,
-        found,
+        result,
         rank=ranked.rank,
-        label=found.variant.label,
+        label=result.variant.label,
         row=RowSizes(row.nominal_diameter, row.lead, row.source),
-        nut=found.variant.nut,
-        oil=found.variant.oil_name,
+        nut=result.variant.nut,
+        oil=result.variant.oil_name,
         pareto=ranked.pareto,
-        worst=worst(found),
-        fails=fails(found),
+        worst=worst(result),
+        fails=fails(result),
         verdict=verdict,
-        objectives=Objectives(**found.objectives),
+        objectives=Objectives(**result.objectives),
         case=case,
-        starved=bool(found.starved),
+        starved=bool(result.starved),
     )
 
 
-def worst(found: Candidate) -> float | None:
+def worst(result: Candidate) -> float | None:
     """The largest utilisation; None where it is not finite."""
-    return found.worst if math.isfinite(found.worst) else None
+    return result.worst if math.isfinite(result.worst) else None
 
 
-def fails(found: Candidate) -> list[Failing]:
+def fails(result: Candidate) -> list[Failing]:
     """The checks that fail."""
-    return [Failing(check.name, check.utilisation) for check in found.failed]
+    return [Failing(check.name, check.utilisation) for check in result.failed]
 
 
 def of_motion(duty: DutyReport) -> OfMotion:
@@ -198,32 +198,35 @@ _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 _LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "holds", "verdict")
 
 
-def document(found: Selection, listed: Sequence[Ranked] | None = None) -> dict[str, Any]:
+def document(selection: Selection, listed: Sequence[Ranked] | None = None) -> dict[str, Any]:
     """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``.
 
     Candidates are those ``listed``, or all of them.
     """
-    first = next((each.candidate for each in found.ranked if each.candidate.complete), None)
+    first = next((each.candidate for each in selection.ranked if each.candidate.complete), None)
     known: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
     known.pop("loads", None)
-    best, moves = found.best, found.need.moves
+    best, moves = selection.best, selection.need.moves
     return {
-        "need": need_document(found.need),
-        "objectives": objectives_document(found.objectives),
+        "need": need_document(selection.need),
+        "objectives": objectives_document(selection.objectives),
         "best": None if best is None else best.variant.label,
-        "holding": len(found.holding),
-        "ruled_out": sum(not each.candidate.complete for each in found.ranked),
+        "holding": len(selection.holding),
+        "ruled_out": sum(not each.candidate.complete for each in selection.ranked),
         "candidates": [
-            candidate_document(each, found.need, found.model) for each in (found.ranked if listed is None else listed)
+            candidate_document(each, selection.need, selection.model)
+            for each in (selection.ranked if listed is None else listed)
         ],
-        "notes": list(found.notes),
-        "warnings": documents(next((each.candidate.starved for each in found.ranked if each.candidate.starved), [])),
+        "notes": list(selection.notes),
+        "warnings": documents(
+            next((each.candidate.starved for each in selection.ranked if each.candidate.starved), [])
+        ),
         "units": {
             **known,
             **declared.units_of(OneCandidate),
             **(declared.units_of(OfMotion) if moves else {}),
         },
-        "provenance": provenance.of_case(found.ranked[0].candidate.case) if found.ranked else None,
+        "provenance": provenance.of_case(selection.ranked[0].candidate.case) if selection.ranked else None,
     }
 
 
@@ -232,16 +235,16 @@ def plan_document(plan: Plan) -> dict[str, Any]:
     return declared.document(plan)
 
 
-def row_document(found: Candidate) -> dict[str, Any]:
+def row_document(result: Candidate) -> dict[str, Any]:
     """A candidate as it comes, before it has a rank: what is seen in the list."""
     return {
-        "label": found.variant.label,
-        "complete": found.complete,
-        "fits": found.fits,
-        "holds": found.holds,
-        "worst": worst(found),
-        "fails": declared.document(fails(found)),
-        "objectives": dict(found.objectives),
+        "label": result.variant.label,
+        "complete": result.complete,
+        "fits": result.fits,
+        "holds": result.holds,
+        "worst": worst(result),
+        "fails": declared.document(fails(result)),
+        "objectives": dict(result.objectives),
     }
 
 
@@ -270,35 +273,35 @@ def objectives_document(names: Any) -> list[dict[str, Any]]:
 
 def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> dict[str, Any]:
     """One candidate: the document of its check, with its rank, what fails, the numbers compared, and its case file."""
-    found = ranked.candidate
+    result = ranked.candidate
     whole: dict[str, Any] = {"results": {}, "verdicts": [], "warnings": [], "assumed": []}
-    if found.run is not None:
-        whole = check_documents.list_document([found.run])[0]
-        if found.duty is not None:  # of the cycle, and not of steady travel
+    if result.run is not None:
+        whole = check_documents.list_document([result.run])[0]
+        if result.duty is not None:  # of the cycle, and not of steady travel
             for name, more in (("verdicts", duty_verdicts.inertia), ("warnings", duty_verdicts.inertia_warnings)):
-                whole[name] = [one for one in whole[name] if one["id"] != STARVED] + documents(more(found.duty))
+                whole[name] = [one for one in whole[name] if one["id"] != STARVED] + documents(more(result.duty))
         if not any(one["id"] == STARVED for name in ("verdicts", "warnings") for one in whole[name]):
             # of the cycle, or of the nut without load
-            whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
+            whole["warnings"] = [*documents(result.starved), *whole["warnings"]]
     return {
-        **declared.document(candidate(ranked, verdict(found), case_text.tables(found, need, model))),
+        **declared.document(candidate(ranked, verdict(result), case_text.tables(result, need, model))),
         "results": whole.pop("results"),
-        **({} if found.duty is None else declared.document(of_motion(found.duty))),
-        "checks": [check_documents.check_document(check) for check in found.checks],
-        "judged": judged(found.checks),
+        **({} if result.duty is None else declared.document(of_motion(result.duty))),
+        "checks": [check_documents.check_document(check) for check in result.checks],
+        "judged": judged(result.checks),
         **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
     }
 
 
-def verdict(found: Candidate) -> str:
+def verdict(result: Candidate) -> str:
     """All checks in a few words, with the utilisation of those that fail."""
-    if found.complete:
-        said = verdict_of(found.checks, passes="holds", by_how_much=True)
+    if result.complete:
+        said = verdict_of(result.checks, passes="holds", by_how_much=True)
     else:
-        names = ", ".join(failing(check) for check in found.failed)
+        names = ", ".join(failing(check) for check in result.failed)
         said = f"cannot hold: {names}"
-    text = with_unlikely(said, found.case)
-    limit = found.rigid_lift_off_load
+    text = with_unlikely(said, result.case)
+    limit = result.rigid_lift_off_load
     if limit is not None:
         text += f"; preload lost (rigid bodies: above {units.shown(limit, _LIFT_OFF)})"
-    return text if found.valid else f"{text}; outside the model's validity"
+    return text if result.valid else f"{text}; outside the model's validity"

@@ -322,14 +322,14 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
     if need.length_is_stroke and case.installation is not None:
         length = units.shown(case.installation.unsupported_length, fields_of(Installation)["unsupported_length"])
         notes.append(f"unsupported length {length}: {LENGTH_OF_STROKE}")
-    found = checked(row.name, case, [*need.notes, *notes])
+    result = checked(row.name, case, [*need.notes, *notes])
     report = duties.duty(case, recorded=recorded) if need.moves else None
-    starves = Starved.of(found, report)
-    numbers = objectives(need, found, report, _price(need, variant), starves)
-    own = found.checks if report is None else report.checks
-    balls = found.nut.loads if report is None else report.balls_under_largest_load
+    starves = Starved.of(result, report)
+    numbers = objectives(need, result, report, _price(need, variant), starves)
+    own = result.checks if report is None else report.checks
+    balls = result.nut.loads if report is None else report.balls_under_largest_load
     load = float(case.operation.axial_load) if report is None else report.largest_load
-    preload = found.nut.preload
+    preload = result.nut.preload
     return Candidate(
         variant,
         case,
@@ -344,12 +344,12 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
                 balls=balls,
                 lacks_preload=lacks_preload(need, variant),
             ),
-            *requirement_checks.of_friction(need.requirements, found, report, numbers),
+            *requirement_checks.of_friction(need.requirements, result, report, numbers),
         ),
         numbers,
         preload,
         balls,
-        found,
+        result,
         report,
         _looked_for(need),
         starves.records,
@@ -388,10 +388,10 @@ class Starved(NamedTuple):
     without_load: BothTorques | None
 
     @classmethod
-    def of(cls, found: Checked, report: DutyReport | None) -> Starved:
+    def of(cls, result: Checked, report: DutyReport | None) -> Starved:
         """Under load and without, each judged by itself: under load oil may matter little, and without it much."""
-        loaded = found.run.friction.starvation if report is None else duty_verdicts.starved(report)
-        return cls(loaded, _without_load(found))
+        loaded = result.run.friction.starvation if report is None else duty_verdicts.starved(report)
+        return cls(loaded, _without_load(result))
 
     @property
     def records(self) -> list[Record]:
@@ -404,7 +404,7 @@ class Starved(NamedTuple):
 
 def objectives(
     need: Need,
-    found: Checked,
+    result: Checked,
     report: DutyReport | None,
     price_index: float = math.nan,
     starved: Starved | None = None,
@@ -419,16 +419,16 @@ def objectives(
     idle = None if starved is None else starved.without_load
     return {
         **dict.fromkeys(OBJECTIVES, math.nan),
-        **(_of_point(found, starves=starves) if report is None else _of_cycle(report, starves=starves)),
-        **_of_shaft(need, found.case),
-        "rigidity": float(found.nut.loads.rigidity),
-        "preload_torque": float(found.nut.preload_drag) if idle is None else idle.flooded,
+        **(_of_point(result, starves=starves) if report is None else _of_cycle(report, starves=starves)),
+        **_of_shaft(need, result.case),
+        "rigidity": float(result.nut.loads.rigidity),
+        "preload_torque": float(result.nut.preload_drag) if idle is None else idle.flooded,
         "price_index": float(price_index),
     }
 
 
-def _of_point(found: Checked, *, starves: bool) -> dict[str, float]:
-    friction = found.run.friction
+def _of_point(result: Checked, *, starves: bool) -> dict[str, float]:
+    friction = result.run.friction
     torque = float(friction.screw_torque)
     more = max(float(friction.flooded_torque) - torque, 0.0) if starves else 0.0
     loss, drive = float(friction.friction_power), float(friction.drive_torque)
@@ -436,7 +436,7 @@ def _of_point(found: Checked, *, starves: bool) -> dict[str, float]:
     return {
         "loss": loss + more * abs(float(friction.screw_speed)),
         "drive_torque": max(abs(drive), abs(drive + way * more)),
-        "life": _life_of(found.checks),
+        "life": _life_of(result.checks),
     }
 
 
@@ -450,9 +450,9 @@ def _of_cycle(report: DutyReport, *, starves: bool) -> dict[str, float]:
     }
 
 
-def _without_load(found: Checked) -> BothTorques | None:
+def _without_load(result: Checked) -> BothTorques | None:
     """Torque of the nut without load as it is given and in a full bath of oil; None where they hardly differ."""
-    case, given = found.run.case, float(found.nut.preload_drag)
+    case, given = result.run.case, float(result.nut.preload_drag)
     speed = case.operation.screw_speed
     if starvation.least_replenished(case.model, case.screw, case.lubricant, speed) >= starvation.NEARLY_ALL:
         return None

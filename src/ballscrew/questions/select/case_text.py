@@ -20,45 +20,45 @@ from ballscrew.questions.select.compute import Ranked, Selection
 from ballscrew.questions.select.need import Need
 
 
-def tables(found: Candidate, need: Need, model: str | None = None) -> dict[str, Any]:
+def tables(candidate: Candidate, need: Need, model: str | None = None) -> dict[str, Any]:
     """The case file of a candidate; one that moves has its steady travel as operation, for all other questions.
 
     ``model`` is the name of the one that it was judged by, in place of that of the need.
     """
-    known, at = fields_of(OperatingState), found.case.operation
+    known, at = fields_of(OperatingState), candidate.case.operation
     steady = {name: units.written(getattr(at, name), known[name]) for name in ("axial_load", "screw_speed")}
-    made = case_tables(need, found.variant)
+    made = case_tables(need, candidate.variant)
     if need.moves and "operation" not in made:
         made["operation"] = steady
     if model is not None:
         made["model"] = {**made.get("model", {}), "name": model}
-    estimates = _estimates(found, need, made)
+    estimates = _estimates(candidate, need, made)
     if estimates:
         made[ESTIMATES] = estimates
-    if found.case.calibration is not None:
-        return {**with_calibration(made, found.case.calibration.name)}
+    if candidate.case.calibration is not None:
+        return {**with_calibration(made, candidate.case.calibration.name)}
     return {**with_calibration(made, NO_CALIBRATION)} if "calibration" in made.get("model", {}) else made
 
 
-def save(to: Path, found: Selection, chosen: Ranked, said: str) -> None:
+def save(to: Path, selection: Selection, chosen: Ranked, said: str) -> None:
     """Write the case of a candidate; ``said`` is what its checks say."""
     with atomic_write("--to", to) as path:
-        path.write_text(text(found, chosen, said, folder=to.parent), encoding="utf-8")
+        path.write_text(text(selection, chosen, said, folder=to.parent), encoding="utf-8")
 
 
-def text(found: Selection, chosen: Ranked, said: str, *, folder: Path = Path()) -> str:
+def text(selection: Selection, chosen: Ranked, said: str, *, folder: Path = Path()) -> str:
     """The case of a candidate as TOML for a file in ``folder``; what was assumed stands in its comments."""
     import tomlkit
 
-    candidate, need = chosen.candidate, found.need
-    made = tables(candidate, need, found.model)
+    candidate, need = chosen.candidate, selection.need
+    made = tables(candidate, need, selection.model)
     if need.folder.resolve() != folder.resolve():
         kept = made.pop(ASIDE, None)  # no command reads it
         made = {**moved(made, need.folder, folder), **({} if kept is None else {ASIDE: kept})}
     order = [name for name in (*sections(), *made) if name in made]
     ordered = {name: made[name] for name in dict.fromkeys(order)}
     head = [
-        f"{candidate.variant.label}: rank {chosen.rank} of {len(found.ranked)} for {need.name}",
+        f"{candidate.variant.label}: rank {chosen.rank} of {len(selection.ranked)} for {need.name}",
         f"written by ballscrew select; checks: {said}",
         *(f"assumed: {note}" for note in _assumed(candidate, need)),
     ]

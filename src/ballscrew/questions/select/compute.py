@@ -109,13 +109,13 @@ class Selection:
     @property
     def holding(self) -> Sequence[Ranked]:
         """The candidates whose checks were all judged and hold."""
-        return [found for found in self.ranked if found.candidate.holds]
+        return [result for result in self.ranked if result.candidate.holds]
 
     @property
     def best(self) -> Candidate | None:
         """The first that holds and lies within the validity of the model; None where there is none."""
-        found = next((each for each in self.ranked if each.candidate.holds and each.candidate.valid), None)
-        return None if found is None else found.candidate
+        result = next((each for each in self.ranked if each.candidate.holds and each.candidate.valid), None)
+        return None if result is None else result.candidate
 
 
 def select(
@@ -183,16 +183,16 @@ def select(
         return candidate
 
     # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
-    found = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
+    result = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
     if asked.length_is_stroke:  # each candidate says its own length
         asked = asked.with_note(f"unsupported length: {LENGTH_OF_STROKE}")
-    candidates = list(found.found.values())
+    candidates = list(result.found.values())
     return Selection(
         asked,
         ready.objectives,
         ranked(candidates, ready.objectives),
-        [*ready.notes, *found.notes],
-        found.interrupted,
+        [*ready.notes, *result.notes],
+        result.interrupted,
         model,
     )
 
@@ -303,23 +303,23 @@ def _worth_recording(need: Need, every: Sequence[Variant]) -> frozenset[str]:
 
 def ranked(candidates: Sequence[Candidate], objectives: Sequence[str]) -> list[Ranked]:
     """Candidates in their order, see :func:`select`."""
-    fitting = [found for found in candidates if found.fits and found.life_short <= 1]
+    fitting = [candidate for candidate in candidates if candidate.fits and candidate.life_short <= 1]
     # an estimate beyond the validity of the model beats nothing that is within it
-    fitting = [found for found in fitting if found.valid] or fitting
-    costs = np.array([costs_of(found, objectives) for found in fitting]).reshape(len(fitting), len(objectives))
-    best = {id(found) for found, leads in zip(fitting, front(costs), strict=True) if leads}
+    fitting = [result for result in fitting if result.valid] or fitting
+    costs = np.array([costs_of(result, objectives) for result in fitting]).reshape(len(fitting), len(objectives))
+    best = {id(result) for result, leads in zip(fitting, front(costs), strict=True) if leads}
 
-    def key(found: Candidate) -> tuple[Any, ...]:
-        if found.cannot_hold:  # by what is known with and without the full model
-            return (2, found.worst_by_loads, found.variant.label)
-        first = costs_of(found, objectives[:1])[0]
+    def key(candidate: Candidate) -> tuple[Any, ...]:
+        if candidate.cannot_hold:  # by what is known with and without the full model
+            return (2, candidate.worst_by_loads, candidate.variant.label)
+        first = costs_of(candidate, objectives[:1])[0]
         number = math.inf if math.isnan(first) else first
-        if not found.fits or found.life_short > 1:
-            return (1, max(found.worst, found.life_short), number, found.variant.label)
-        return (0, not found.valid, id(found) not in best, number, found.variant.label)
+        if not candidate.fits or candidate.life_short > 1:
+            return (1, max(candidate.worst, candidate.life_short), number, candidate.variant.label)
+        return (0, not candidate.valid, id(candidate) not in best, number, candidate.variant.label)
 
     ordered = sorted(candidates, key=key)
-    return [Ranked(place, found, id(found) in best) for place, found in enumerate(ordered, start=1)]
+    return [Ranked(place, result, id(result) in best) for place, result in enumerate(ordered, start=1)]
 
 
 def costs_of(candidate: Candidate, objectives: Sequence[str]) -> list[float]:

@@ -185,10 +185,10 @@ def _unknown(where: str, key: str, value: Any, known: Iterable[str]) -> Fault:
     if key in _ANY_SPEED:
         remedy = 'write feed = "15 m/min", the speed at which the load acts, and judge the fastest by a need of its own'
         return Fault(where, "could be two speeds", str(value), remedy, id=_UNKNOWN)
-    found = closest(key, [*SHORT_NAMES, *known, *sections()])
+    result = closest(key, [*SHORT_NAMES, *known, *sections()])
     names = {place: name for name, place in reversed([*SHORT_NAMES.items()])}
     listed = dict.fromkeys([*reversed([*names.values()]), *known])
-    remedy = f'did you mean "{found}"?' if found else f"known: {', '.join(listed)}"
+    remedy = f'did you mean "{result}"?' if result else f"known: {', '.join(listed)}"
     return Fault(where, "unknown name", str(value), remedy, id=_UNKNOWN)
 
 
@@ -308,20 +308,20 @@ def need_section() -> Any:
 
 
 def _section(tables: Mapping[str, Any], name: str, faults: list[Fault]) -> dict[str, Any]:
-    found = tables.get(name, {})
-    if not isinstance(found, dict):
-        faults.append(Fault(name, "must be a table", str(found), f"write [{name}]"))
+    result = tables.get(name, {})
+    if not isinstance(result, dict):
+        faults.append(Fault(name, "must be a table", str(result), f"write [{name}]"))
         return {}
-    return dict(found)
+    return dict(result)
 
 
 def _texts(where: str, given: Any, faults: list[Fault]) -> list[str]:
     """One text, or a list of texts."""
-    found = given if isinstance(given, list | tuple) else [given]
-    if not all(isinstance(each, str) for each in found):
+    result = given if isinstance(given, list | tuple) else [given]
+    if not all(isinstance(each, str) for each in result):
         faults.append(Fault(where, "must be text, or a list of texts", str(given), 'write ["2 %", "5 %"]'))
         return []
-    return list(dict.fromkeys(found))
+    return list(dict.fromkeys(result))
 
 
 def _prices(given: Any, faults: list[Fault]) -> dict[str, float]:
@@ -354,8 +354,8 @@ def _oils(tables: dict[str, Any], notes: list[str], assumed: list[str], faults: 
         table |= _one_oil(table.pop("oil"))
     for key in ("grade", "oil"):
         if isinstance(table.get(key), list):
-            found = _texts(f"lubricant.{key}", table.pop(key), faults)
-            named += [{key: name} if key == "grade" or "oil_file" in table else _one_oil(name) for name in found]
+            texts = _texts(f"lubricant.{key}", table.pop(key), faults)
+            named += [{key: name} if key == "grade" or "oil_file" in table else _one_oil(name) for name in texts]
     if not named and not any(key in table for key in _OIL):
         named = [{"grade": GRADE}]
         assumed.append("lubricant.grade")

@@ -36,8 +36,8 @@ def _objective(
 
 #: The objectives by name.
 OBJECTIVES: Mapping[str, Objective] = {
-    found.quantity.name: found
-    for found in (
+    each.quantity.name: each
+    for each in (
         _objective("loss", "W", "P_f", "power lost to friction, of a cycle its mean"),
         _objective("inertia", "kg m^2", "J", "moment of inertia of the shaft", "kg cm^2"),
         _objective("reflected_mass", "kg", "m_J", "mass that the shaft adds to what moves"),

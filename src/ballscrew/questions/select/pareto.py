@@ -12,7 +12,7 @@ def front(costs: NDArray[np.float64]) -> NDArray[np.bool_]:
     A row beats another that it is nowhere above and somewhere below; equal rows beat each other not. Rows with NaN are
     on no front.
     """
-    found = np.zeros(len(costs), dtype=bool)
+    values = np.zeros(len(costs), dtype=bool)
     known = np.flatnonzero(~np.isnan(costs).any(axis=1))
     # a row that beats another comes before it in the order of its columns, one after the other
     order = known[np.lexsort(costs[known].T[::-1])]
@@ -21,5 +21,5 @@ def front(costs: NDArray[np.float64]) -> NDArray[np.bool_]:
         best, row = costs[kept], costs[place]
         if not np.any((best <= row).all(axis=1) & (best < row).any(axis=1)):
             kept.append(int(place))
-    found[kept] = True
-    return found
+    values[kept] = True
+    return values

@@ -43,7 +43,7 @@ def by_loads(
     has none.
     """
     lacking = Check.saying(_NO_PRELOAD, "preload", 0.0, None, "N", None, False)
-    found = (
+    pair = (
         lacking if lacks_preload else kept_preload(preload, largest_load, balls),
         _bounded(
             Check.at_least, _LEFT,
@@ -52,11 +52,11 @@ def by_loads(
         _inertia(required, case, numbers["inertia"]),
         step(required, float(case.screw.lead)),
     )  # fmt: skip
-    return tuple(check for check in found if check is not None)
+    return tuple(check for check in pair if check is not None)
 
 
 def of_friction(
-    required: Requirements, found: Checked, report: DutyReport | None, numbers: Mapping[str, float]
+    required: Requirements, checked: Checked, report: DutyReport | None, numbers: Mapping[str, float]
 ) -> tuple[Check, ...]:
     """A check for each other requirement that is set."""
     bounds = (
@@ -68,9 +68,9 @@ def of_friction(
             Check.at_most, "drag torque of the nut",
             "preload_torque", numbers["preload_torque"], required.largest_preload_torque, "N m",
         ),
-        _rigidity(required, found, numbers["rigidity"]),
+        _rigidity(required, checked, numbers["rigidity"]),
     )  # fmt: skip
-    drives = back_driving(required, found) if report is None else _of_axis(required, report)
+    drives = back_driving(required, checked) if report is None else _of_axis(required, report)
     return tuple(check for check in (*bounds, drives) if check is not None)
 
 
@@ -111,14 +111,14 @@ def _bounded(
     return check(message, name, value, limit, unit)
 
 
-def _rigidity(required: Requirements, found: Checked, of_balls: float) -> Check | None:
+def _rigidity(required: Requirements, checked: Checked, of_balls: float) -> Check | None:
     """The nut against the least rigidity: that of its balls under the load, or that of ISO 3408-4 where it is smaller.
 
     Catalogues print the latter. That of the drive stands beside it, where shaft and bearings are known.
     """
     if required.least_rigidity is None:
         return None
-    by_standard = found.nut.rigidity
+    by_standard = checked.nut.rigidity
     corrected, nut, drive = (float(value) for value in (by_standard.nut_corrected, by_standard.nut, by_standard.drive))
     printed = nut if math.isnan(corrected) else corrected
     message = "rigidity of the nut under the load"
@@ -151,7 +151,7 @@ def step(required: Requirements, lead: float) -> Check | None:
     return _bounded(Check.at_most, "travel of one count", "step", count, required.largest_step, "m")
 
 
-def back_driving(required: Requirements, found: Checked) -> Check | None:
+def back_driving(required: Requirements, checked: Checked) -> Check | None:
     """Whether the load turns the screw, at rest and at the speed.
 
     The value is the torque that the load has left over friction, negative where friction holds it: at rest, at the
@@ -160,12 +160,12 @@ def back_driving(required: Requirements, found: Checked) -> Check | None:
     """
     if required.back_driving == ALLOWED:
         return None
-    load = found.run.at_rest.axial_load
+    load = checked.run.at_rest.axial_load
     if not load:
         return Check.saying("not judged: no load", "back_driving", None, None, "N m", None, None)
-    friction, way = found.run.friction, math.copysign(1.0, load)
+    friction, way = checked.run.friction, math.copysign(1.0, load)
     flooded = directions.holding_torque(friction.ideal_torque, friction.flooded_torque)
-    left = (way * float(torque) for torque in (found.run.at_rest.holding_torque, friction.holding_torque, flooded))
+    left = (way * float(torque) for torque in (checked.run.at_rest.holding_torque, friction.holding_torque, flooded))
     known = [value for value in left if not math.isnan(value)]
     if not known:
         return Check.saying("not judged: outside of what the model knows", "back_driving", None, 0.0, "N m", None, None)
@@ -188,8 +188,8 @@ def _of_axis(required: Requirements, report: DutyReport) -> Check | None:
     if required.back_driving == FORBIDDEN:
         message = "torque that holds the axis with the motor off, in any condition"
         return Check.saying(message, "back_driving", brake.holding_torque, 0.0, "N m", None, not brake.falls)
-    every = all(found.falls for found in brake.conditions)
-    least = min(found.holding_torque for found in brake.conditions)
+    every = all(condition.falls for condition in brake.conditions)
+    least = min(condition.holding_torque for condition in brake.conditions)
     return Check.saying(
         "torque that the load has left in every condition", "back_driving", least, 0.0, "N m", None, every
     )

@@ -172,11 +172,11 @@ def cost(plan: Plan) -> str:
     return "\n".join(map(wrapped, lines))
 
 
-def not_judged(found: Selection) -> str:
+def not_judged(selection: Selection) -> str:
     """Why none holds though some fail nothing: ``12 of them fail no check, but …``; empty where that is not so."""
-    fitting = [each.candidate for each in found.ranked if each.candidate.fits]
-    missing = _missing([each.candidate for each in found.ranked])
-    if found.holding or not fitting or not missing:
+    fitting = [each.candidate for each in selection.ranked if each.candidate.fits]
+    missing = _missing([each.candidate for each in selection.ranked])
+    if selection.holding or not fitting or not missing:
         return ""
     needed = ", ".join(missing)
     return f"{len(fitting)} of them fail no check, but a candidate holds only once all are judged: give {needed}"
@@ -207,13 +207,13 @@ def asked(need: Need) -> list[str]:
     ]
 
 
-def compared_with(found: Selection) -> list[str]:
+def compared_with(selection: Selection) -> list[str]:
     """The limits that any candidate fails, from the least to the largest of all candidates.
 
     Whose they are, with how many were compared with each, where makers have their own; and how many fail by an
     estimated limit alone.
     """
-    every = [check for each in found.ranked for check in each.candidate.checks if check.limit is not None]
+    every = [check for each in selection.ranked for check in each.candidate.checks if check.limit is not None]
     lines: list[str] = []
     for name in dict.fromkeys(check.name for check in every if check.holds is False and check.limit):
         own = sorted((check for check in every if check.name == name), key=lambda check: check.limit or 0.0)
@@ -225,7 +225,7 @@ def compared_with(found: Selection) -> list[str]:
             *(f"{maker}: {count} candidates" for maker, count in makers.items()),
         ]
         lines.append(f"{name.replace('_', ' ')} {'; '.join(words)}")
-    alone = [each for each in found.ranked if _estimate_decides(each.candidate)]
+    alone = [each for each in selection.ranked if _estimate_decides(each.candidate)]
     if alone:
         lines.append(f"{len(alone)} fail by an estimated limit alone: ask the maker, and give it by [limits]")
     return ["compared with:", *(f"  {line}" for line in lines)] if lines else []
@@ -251,9 +251,9 @@ def what_turns(ranked: Sequence[Ranked]) -> list[str]:
     return lines
 
 
-def beside_rules(found: Selection) -> list[str]:
+def beside_rules(selection: Selection) -> list[str]:
     """The torque of the best candidate without load beside the rules of makers; nothing of one without preload."""
-    best = next((each for each in found.ranked if each.candidate is found.best), None)
+    best = next((each for each in selection.ranked if each.candidate is selection.best), None)
     if best is None or best.candidate.run is None:
         return []
     run = best.candidate.run.run

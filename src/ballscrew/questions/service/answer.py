@@ -108,12 +108,12 @@ class ServiceResults:
 
 def results(report: ServiceReport) -> ServiceResults:
     """The results of a service."""
-    found: dict[str, Any] = {name: _estimate(one) for name, one in report.estimates.items()}
+    values: dict[str, Any] = {name: _estimate(one) for name, one in report.estimates.items()}
     if report.change is not None:
-        found |= _change(report.change)
+        values |= _change(report.change)
     if report.reading is not None:
-        found |= {"torque": report.reading.torque, "screw_speed": report.reading.screw_speed}
-    return ServiceResults(**found)
+        values |= {"torque": report.reading.torque, "screw_speed": report.reading.screw_speed}
+    return ServiceResults(**values)
 
 
 def _estimate(one: PreloadEstimate) -> EstimatedPreload:
@@ -229,12 +229,12 @@ def _of_alternative(one: Alternative) -> Record:
 def _of_reading(case: Case, report: ServiceReport) -> Record:
     assert report.preload is not None
     quantity = preload_quantity(case)
-    found = (report.preload.preload, *report.preload.interval())
-    preload, low, high = (units.shown(force, quantity) for force in found)
+    pair = (report.preload.preload, *report.preload.interval())
+    preload, low, high = (units.shown(force, quantity) for force in pair)
     text = f"preload {preload} ({low} to {high})"
     nominal = getattr(case.screw.nut, "preload", None)
     if nominal:
-        share, least, most = (units.percent(force / nominal) for force in found)
+        share, least, most = (units.percent(force / nominal) for force in pair)
         text += f", {share} of the {units.shown(float(nominal), quantity)} of the case ({least} to {most})"
     text += _taken_at(case, report)
     return Record(text=text, id="service.preload", subject=PRELOAD, value=report.preload.preload, unit="N")

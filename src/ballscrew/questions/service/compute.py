@@ -113,7 +113,7 @@ def of_logs(
 def of_torque(case: Case, measured: Reading) -> ServiceReport:
     """The preload of a torque without load."""
     with faults_named(_FLAGS):
-        found = preload_of_torque(
+        preload = preload_of_torque(
             case.model,
             case.screw,
             case.lubricant,
@@ -125,23 +125,23 @@ def of_torque(case: Case, measured: Reading) -> ServiceReport:
             joint=joint_of(case, all_of(case)),
         )
     return ServiceReport(
-        preload=found, reading=measured, of_case=[*_starved(case, found, measured), *case.implausible()]
+        preload=preload, reading=measured, of_case=[*_starved(case, preload, measured), *case.implausible()]
     )
 
 
-def _starved(case: Case, found: PreloadEstimate, measured: Reading) -> list[Record]:
+def _starved(case: Case, preload_estimate: PreloadEstimate, measured: Reading) -> list[Record]:
     """That the nut with the preload found is starved of oil at the reading."""
     oil = case.lubricant if measured.temperature is None else case.lubricant.at(measured.temperature)
-    subject = Configuration(case.model, case.screw, oil).changed({PRELOAD: found.preload})
+    subject = Configuration(case.model, case.screw, oil).changed({PRELOAD: preload_estimate.preload})
     points = {"axial_load": 0.0, "screw_speed": measured.screw_speed}
     return subject.starvation(points, _OF_PRELOAD)
 
 
 def distributions(case: Case) -> dict[str, Distribution]:
     """The uncertain numbers of a case, the temperature left to the logs, and what a grade then leaves open instead."""
-    found = {name: one.distribution for name, one in all_of(case).items() if name != TEMPERATURE.name}
+    values = {name: one.distribution for name, one in all_of(case).items() if name != TEMPERATURE.name}
     if not case.fit and case.lubricant.follows_temperature:
         exact = {*case.exact, TEMPERATURE.name}
-        usual = default_distributions(case.model, case.screw, case.lubricant, given=found, exact=exact)
-        found |= {name: distribution for name, (distribution, _) in usual.items()}
-    return found
+        usual = default_distributions(case.model, case.screw, case.lubricant, given=values, exact=exact)
+        values |= {name: distribution for name, (distribution, _) in usual.items()}
+    return values

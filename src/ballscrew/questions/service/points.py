@@ -32,7 +32,7 @@ def curves(report: ServiceReport, most: int) -> dict[str, Curve]:
 
     Rows of other loads and temperatures are shown by what they are off the curve.
     """
-    found: dict[str, Curve] = {}
+    result: dict[str, Curve] = {}
     for label, one in report.estimates.items():
         if one.fit is None:
             continue
@@ -44,17 +44,17 @@ def curves(report: ServiceReport, most: int) -> dict[str, Curve]:
         measured = rows.friction + one.fit.constant_torque - rows.residuals * rows.direction
         measured = measured + _friction(one, {**_usual(rows), "screw_speed": x}) - _friction(one, own)
         places = some(np.flatnonzero(~rows.outlying), most)
-        found[label] = Curve(along, curve, x[places], measured[places])
-    return found
+        result[label] = Curve(along, curve, x[places], measured[places])
+    return result
 
 
 def _usual(rows: Rows) -> dict[str, Any]:
     """The median size of the load, with the sign that more of it has, and the mean temperature of a log."""
     load = rows.convention.loads(rows.log.axial_load, rows.log.screw_speed)
-    found: dict[str, Any] = {"axial_load": float(np.copysign(np.median(np.abs(load)), np.sum(load)))}
+    usual: dict[str, Any] = {"axial_load": float(np.copysign(np.median(np.abs(load)), np.sum(load)))}
     if rows.log.temperature is not None:
-        found["temperature"] = float(np.mean(rows.log.temperature))
-    return found
+        usual["temperature"] = float(np.mean(rows.log.temperature))
+    return usual
 
 
 def _friction(one: PreloadEstimate, points: Mapping[str, Any]) -> Numbers:

@@ -50,11 +50,11 @@ def reading(written: Mapping[str, Any]) -> Reading:
     if isinstance(uncertain, Fault):
         faults.append(Fault("--torque", uncertain.problem, uncertain.given or options.torque, uncertain.remedy))
     elif uncertain is None:
-        found = units.parse("--torque", options.torque, TORQUE)
-        if isinstance(found, Fault):
-            faults.append(found)
+        result = units.parse("--torque", options.torque, TORQUE)
+        if isinstance(result, Fault):
+            faults.append(result)
         else:
-            value = found
+            value = result
     else:
         value = uncertain.central
         if isinstance(uncertain.distribution, Normal):

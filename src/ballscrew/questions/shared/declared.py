@@ -143,22 +143,22 @@ def _is_union(annotation: Any) -> bool:
 @functools.cache
 def parts_of(cls: type) -> Mapping[str, Part]:
     """The parts of an answer by name: fields, then public properties, those of a base class first."""
-    found: dict[str, Part] = {}
+    parts: dict[str, Part] = {}
     has_parts = issubclass(cls, Answer)
     kinds: Any = (part,) if has_parts else (property, functools.cached_property)
     fields = [] if has_parts or not dataclasses.is_dataclass(cls) else [each.name for each in dataclasses.fields(cls)]
     names = set(getattr(cls, "_fields", fields))  # those of a named tuple, or of a dataclass
     if names:
         hints = get_type_hints(cls, include_extras=True)
-        found |= {name: Part(name, hint) for name, hint in hints.items() if name in names and not name.startswith("_")}
+        parts |= {name: Part(name, hint) for name, hint in hints.items() if name in names and not name.startswith("_")}
     for owner in reversed(cls.__mro__):
         for name, member in vars(owner).items():
             getter = member.fget if isinstance(member, property) else getattr(member, "func", None)
             if name.startswith("_") or getter is None or not isinstance(member, kinds):
                 continue
             annotation = get_type_hints(getter, include_extras=True).get("return")
-            found[name] = Part(name, annotation, (getter.__doc__ or "").partition(".")[0])
-    return found
+            parts[name] = Part(name, annotation, (getter.__doc__ or "").partition(".")[0])
+    return parts
 
 
 def described(cls: type) -> Mapping[str, Part]:
@@ -267,13 +267,13 @@ def attributes(value: Any, *names: str) -> dict[str, Any]:
 
 def units(answer: Any) -> dict[str, Any]:
     """The SI units of the numbers of an answer, in tables like its document; parts without numbers are not in it."""
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for name, part in parts_of(type(answer)).items():
         value = getattr(answer, name)
         unit = None if value is None and part.left_out else _units(part, value)
         if unit:
-            found[name] = unit
-    return found
+            values[name] = unit
+    return values
 
 
 def _units(part: Part, value: Any) -> Any:
@@ -294,8 +294,8 @@ def _units(part: Part, value: Any) -> Any:
 
 def units_of(cls: type) -> dict[str, Any]:
     """The SI units of the numbers of an answer of a class."""
-    found = {name: _units(part, None) for name, part in parts_of(cls).items()}
-    return {name: unit for name, unit in found.items() if unit}
+    values = {name: _units(part, None) for name, part in parts_of(cls).items()}
+    return {name: unit for name, unit in values.items() if unit}
 
 
 # -- schema ---------------------------------------------------------------------------------------

@@ -76,9 +76,9 @@ def cases(
         made = case_file.build(own, model, case.parent, {row.name: row}, calibration=calibration, allow_code=allow_code)
         return RowCase(row, own, made, screws.logs.get(row.name))
 
-    found = each({place_of(row): row for row in chosen}, built, keep_going=keep_going, done=done)
+    result = each({place_of(row): row for row in chosen}, built, keep_going=keep_going, done=done)
     return dataclasses.replace(
-        found, found={row.row.name: row for row in found.found.values()}, notes=[*screws.notes, *found.notes]
+        result, found={row.row.name: row for row in result.found.values()}, notes=[*screws.notes, *result.notes]
     )
 
 
@@ -95,28 +95,28 @@ def each(
     Raises :class:`~ballscrew.basis.errors.InputError` with the faults of all rows, or with those of one where all are
     the same; with ``keep_going`` only if no row is good. On Ctrl-C what is done by then is returned, if anything is.
     """
-    found: dict[str, R] = {}
+    results: dict[str, R] = {}
     faults: dict[str, Sequence[Fault]] = {}
     interrupted = False
     try:
         for number, (place, row) in enumerate(rows.items(), start=1):
             try:
-                found[place] = work(row)
+                results[place] = work(row)
             except InputError as error:
                 faults[place] = error.faults
             if done is not None:
                 done(number, len(rows))
     except KeyboardInterrupt:
-        if not found:
+        if not results:
             raise
         interrupted = True
-    if faults and not found and len({tuple(map(str, those)) for those in faults.values()}) == 1:
+    if faults and not results and len({tuple(map(str, those)) for those in faults.values()}) == 1:
         raise InputError(*next(iter(faults.values())))  # the options or the case are at fault, not the rows
     by_row = [dataclasses.replace(f, where=f"{place}, {f.where}") for place, those in faults.items() for f in those]
-    if not (keep_going and found):
+    if not (keep_going and results):
         raise_if_any(by_row)
     notes = [*map(str, by_row), *([f"{len(faults)} of {len(rows)} rows left out"] if faults else [])]
     if interrupted:
-        done_by_then = f"{len(found)} of {len(rows)} are done and kept, the last is {list(found)[-1]}"
+        done_by_then = f"{len(results)} of {len(rows)} are done and kept, the last is {list(results)[-1]}"
         notes.append(f"interrupted: {done_by_then} · run the same again for all")
-    return OfRows(found, notes, interrupted)
+    return OfRows(results, notes, interrupted)

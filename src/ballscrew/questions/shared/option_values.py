@@ -28,18 +28,18 @@ def read(cls: type[T], written: Mapping[str, Any], quantities_of: QuantitiesOf |
     ranges there may be.
     """
     faults: list[Fault] = []
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for name, option in options_of(cls).items():
         given = written.get(name)
         if given is None or given == option.written_default:
-            found[name] = option.default
+            values[name] = option.default
         elif option.kind == "ranges":
-            known = {} if quantities_of is None else quantities_of(name, found)
-            found[name] = _ranges(option.flag, assignments(given), known, faults)
+            known = {} if quantities_of is None else quantities_of(name, values)
+            values[name] = _ranges(option.flag, assignments(given), known, faults)
         else:
-            found[name] = _READERS.get(option.kind, _as_it_is)(option, given, faults)
+            values[name] = _READERS.get(option.kind, _as_it_is)(option, given, faults)
     raise_if_any(faults)
-    return cls(**found)
+    return cls(**values)
 
 
 def flags_of(section: str, *classes: type) -> dict[str, str]:
@@ -92,15 +92,15 @@ def _names(option: OptionField, given: Sequence[str], faults: list[Fault]) -> Se
 def _texts(option: OptionField, given: Mapping[str, str] | Sequence[str], faults: list[Fault]) -> Any:
     if option.option.is_table:
         return assignments(given)
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for text in assignments(given):
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
             noun = option.option.noun or "text"
             remedy = f"write {option.flag} {option.option.example}"
             faults.append(Fault(option.flag, f"is not name={noun}", text, remedy))
-        found[name.strip()] = value.strip()
-    return found
+        texts[name.strip()] = value.strip()
+    return texts
 
 
 def _quantity(option: OptionField, text: str, faults: list[Fault]) -> float | None:
@@ -113,18 +113,18 @@ def _quantity(option: OptionField, text: str, faults: list[Fault]) -> float | No
         return None
     info = Info("", said.meaning, said.shown_in, above=said.above, at_least=said.at_least)
     quantity = Quantity(option.name, said.unit, info)
-    found = units.parse(flag, text, quantity)
-    if isinstance(found, Fault):
-        faults.append(found)
+    value = units.parse(flag, text, quantity)
+    if isinstance(value, Fault):
+        faults.append(value)
         return None
-    fault = fault_of("", quantity, found)
+    fault = fault_of("", quantity, value)
     if fault is not None:
         faults.append(dataclasses.replace(fault, where=flag, given=text, remedy=said.hint))
-    return found
+    return value
 
 
 def _quantities(option: OptionField, given: Sequence[str], faults: list[Fault]) -> list[float]:
-    return [found for text in given if (found := _quantity(option, text, faults)) is not None]
+    return [each for text in given if (each := _quantity(option, text, faults)) is not None]
 
 
 _READERS: Mapping[str, Callable[[OptionField, Any, list[Fault]], Any]] = {
@@ -135,7 +135,7 @@ _READERS: Mapping[str, Callable[[OptionField, Any, list[Fault]], Any]] = {
 
 def _ranges(flag: str, given: Sequence[str], known: Mapping[str, Quantity], faults: list[Fault]) -> dict[str, Range]:
     """``name=low:high unit`` in SI."""
-    found: dict[str, Range] = {}
+    ranges: dict[str, Range] = {}
     for text in given:
         name, equals, values = text.partition("=")
         name, (low, colon, high) = name.strip(), values.strip().partition(":")
@@ -150,10 +150,10 @@ def _ranges(flag: str, given: Sequence[str], known: Mapping[str, Quantity], faul
             wrong = [end for end in ends if isinstance(end, Fault)]
             faults += wrong
             if not wrong:
-                found[name] = cast("Range", tuple(ends))
-                if found[name][0] >= found[name][1]:
+                ranges[name] = cast("Range", tuple(ends))
+                if ranges[name][0] >= ranges[name][1]:
                     faults.append(Fault(f"{flag} {name}", "leaves no room", values, "put the lower end first"))
-    return found
+    return ranges
 
 
 def _end(where: str, text: str, quantity: Quantity) -> float | Fault:

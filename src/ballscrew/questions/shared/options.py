@@ -125,13 +125,13 @@ class OptionField:
 def options_of(cls: type) -> Mapping[str, OptionField]:
     """The options of a dataclass by name, in its order."""
     hints = get_type_hints(cls, include_extras=True)
-    found: dict[str, OptionField] = {}
+    options: dict[str, OptionField] = {}
     for field in dataclasses.fields(cls):
         annotation, *said = get_args(hints[field.name])
         option = next(one for one in said if isinstance(one, Option))
         default = field.default if field.default_factory is dataclasses.MISSING else field.default_factory()
-        found[field.name] = OptionField(field.name, _without_none(annotation), default, option)
-    return found
+        options[field.name] = OptionField(field.name, _without_none(annotation), default, option)
+    return options
 
 
 def _without_none(annotation: Any) -> Any:
@@ -143,7 +143,7 @@ def body_fields(cls: type) -> dict[str, Any]:
     """The fields of a body of the API, as ``pydantic.create_model`` takes them."""
     from pydantic import Field  # the command line does not need it
 
-    found: dict[str, Any] = {}
+    values: dict[str, Any] = {}
     for name, one in options_of(cls).items():
         unit: Any = {"x-si-unit": one.option.unit} if one.option.unit else None
         if isinstance(one.written_default, list | dict):
@@ -154,8 +154,8 @@ def body_fields(cls: type) -> dict[str, Any]:
             field = Field(
                 default=one.written_default, strict=True, description=one.option.meaning, json_schema_extra=unit
             )
-        found[name] = (one.written_type, field)
-    return found
+        values[name] = (one.written_type, field)
+    return values
 
 
 def vocabulary_of(cls: type) -> list[dict[str, Any]]:

@@ -141,7 +141,7 @@ def as_data(report: Report) -> dict[str, Any]:
             return [data(each, name) for each in part]
         if not isinstance(part, str) or name in _OF_PEOPLE:
             return part
-        return _BETWEEN_TAGS.sub(lambda found: plain(found[0]), part) if name == "svg" else plain(part)
+        return _BETWEEN_TAGS.sub(lambda result: plain(result[0]), part) if name == "svg" else plain(part)
 
-    found: dict[str, Any] = data(report)
-    return found
+    values: dict[str, Any] = data(report)
+    return values

@@ -89,7 +89,7 @@ def with_band(
             if done is not None:
                 done(start + finished, total)
 
-        found = bands_of(
+        result = bands_of(
             group,
             outputs,
             count=count,
@@ -101,15 +101,15 @@ def with_band(
             inner=levels,
         )
         for name, both in ends.items():
-            for end, values in zip(both, found.both[name], strict=True):
+            for end, values in zip(both, result.both[name], strict=True):
                 end[places] = values
         for name in outputs:
-            for one, pair in zip(levels, found.inner[name], strict=True):
+            for one, pair in zip(levels, result.inner[name], strict=True):
                 within[name, one][:, places] = pair
-        outside[places] = found.invalid_share
+        outside[places] = result.invalid_share
         before += len(places) * count
     complete = {name: (low.reshape(shape), high.reshape(shape)) for name, (low, high) in ends.items()}
-    found = with_ends(dataset.transpose(*dims), complete, outside, level=level, count=count, seed=_SEED)
+    result = with_ends(dataset.transpose(*dims), complete, outside, level=level, count=count, seed=_SEED)
     # a mask has an interval, too: its least and its greatest value in as many of the samples
     attributes = dataset["valid"].attrs
     masks = {
@@ -117,26 +117,26 @@ def with_band(
         for end, share in zip(ENDS, tails(level), strict=True)
     }
     narrower = {
-        inner_end(name, end, one): (dims, values.reshape(shape), found[f"{name}_{end}"].attrs)
+        inner_end(name, end, one): (dims, values.reshape(shape), result[f"{name}_{end}"].attrs)
         for (name, one), both in within.items()
         for end, values in zip(ENDS, both, strict=True)
     }
-    return found.assign({**masks, **narrower}).assign_attrs({INNER_LEVELS: levels} if levels else {})
+    return result.assign({**masks, **narrower}).assign_attrs({INNER_LEVELS: levels} if levels else {})
 
 
 def _points(case: Case, plan: Plan) -> dict[str, Values]:
     """The values of the axes, the load and the speed at each point of the grid, in the order of the axes."""
     grid = np.meshgrid(*plan.axes.values(), indexing="ij")
     # fields of the nut have two names
-    found = {name.removeprefix("nut."): np.ravel(values) for name, values in zip(plan.axes, grid, strict=True)}
+    points = {name.removeprefix("nut."): np.ravel(values) for name, values in zip(plan.axes, grid, strict=True)}
     size = np.size(grid[0]) if grid else 1
     for name, value in sweeps.unvaried(case, plan).items():
         if isinstance(value, xr.DataArray):  # the speed of a nut whose lead is varied
             of_lead = np.unravel_index(np.arange(size), [len(values) for values in plan.axes.values()])
-            found[name] = value.to_numpy()[of_lead[list(plan.axes).index("lead")]]
+            points[name] = value.to_numpy()[of_lead[list(plan.axes).index("lead")]]
         else:
-            found[name] = np.full(size, float(value))
-    return found
+            points[name] = np.full(size, float(value))
+    return points
 
 
 def _groups(
@@ -209,5 +209,5 @@ def _inputs_at(
         uncertain=uncertain,
         exact=(case.exact - varied) | varied.intersection(calibrated),
     )
-    found = uncertain_inputs.all_of(at, only_given)
-    return _Inputs(at, *bands.distributions(at, found))
+    result = uncertain_inputs.all_of(at, only_given)
+    return _Inputs(at, *bands.distributions(at, result))

@@ -131,11 +131,11 @@ def plan(
         check_writable("--to", to)
     quantities = {name: quantity for name, (_, quantity) in known.items()}
     quantities |= {name: asked.possible[name] for name in (*asked.outputs, "valid")}
-    found = Plan(axes, asked.outputs, quantities, _units_of(known), heats, banded)
+    result = Plan(axes, asked.outputs, quantities, _units_of(known), heats, banded)
     ends = {
-        end: dataclasses.replace(quantities[name], name=end) for name in asked.outputs for end in found.ends_of(name)
+        end: dataclasses.replace(quantities[name], name=end) for name in asked.outputs for end in result.ends_of(name)
     }
-    return dataclasses.replace(found, quantities=quantities | ends)
+    return dataclasses.replace(result, quantities=quantities | ends)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -488,14 +488,14 @@ def starved(dataset: xr.Dataset) -> list[Record]:
 
 def unvaried(case: Case, plan: Plan) -> dict[str, Any]:
     """The load and the speed that are not varied; that of a nut whose lead is varied is one for each lead."""
-    found: dict[str, Any] = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
-    if "screw_speed" in found and "lead" in plan.axes and case.speed_of_nut:
+    values: dict[str, Any] = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
+    if "screw_speed" in values and "lead" in plan.axes and case.speed_of_nut:
         leads = plan.axes["lead"]
-        speeds = found["screw_speed"] * case.screw.lead / leads
+        speeds = values["screw_speed"] * case.screw.lead / leads
         attributes = attributes_of(plan.quantities["lead"])
         coords = {"lead": xr.DataArray(leads, dims="lead", attrs=attributes)}
-        found["screw_speed"] = xr.DataArray(speeds, coords, "lead")
-    return found
+        values["screw_speed"] = xr.DataArray(speeds, coords, "lead")
+    return values
 
 
 def reasons_of(case: Case) -> Mapping[str, str]:

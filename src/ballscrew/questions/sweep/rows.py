@@ -35,25 +35,25 @@ def plans(
     nuts = [row.case.screw.nut for row in rows.values()]
     if not wanted and not all(nut.is_row for nut in nuts):
         wanted = [name for name in NUT_OUTPUTS if all(name in known_outputs(nut) for nut in nuts)]
-    found = every_row.each(
+    of_rows = every_row.each(
         {row.place: row for row in rows.values()},
         lambda row: (row, compute.plan(row.case, vary, wanted, to)),
         keep_going=keep_going,
     )
     # outputs are those of all, so the full bath stands beside every torque where it counts for one of them
     if any(
-        compute.FLOODED in compute.with_flooded_torque(row.case, plan).outputs for row, plan in found.found.values()
+        compute.FLOODED in compute.with_flooded_torque(row.case, plan).outputs for row, plan in of_rows.found.values()
     ):
         both = {
             place: (row, plan if compute.FLOODED in plan.outputs else compute.with_column_of_bath(row.case, plan))
-            for place, (row, plan) in found.found.items()
+            for place, (row, plan) in of_rows.found.items()
         }
-        found = dataclasses.replace(found, found=both)
-    size = sum(_size(plan) * len(plan.outputs) for _, plan in found.found.values())
+        of_rows = dataclasses.replace(of_rows, found=both)
+    size = sum(_size(plan) * len(plan.outputs) for _, plan in of_rows.found.values())
     if size > compute.MOST_VALUES:
         remedy = "take fewer values an axis, or fewer outputs, or one screw: --row NAME"
         raise_if_any([Fault("sweep", "too many values", f"{size:,}", remedy)])
-    return found
+    return of_rows
 
 
 def _size(plan: Plan) -> int:
@@ -79,13 +79,13 @@ def sweep(
             if done is not None:
                 done(start + finished, total)
 
-        found = compute.sweep(case.case, plan, tell, to)
+        swept = compute.sweep(case.case, plan, tell, to)
         before += _size(plan)
-        return found
+        return swept
 
-    found = every_row.each(planned, swept, keep_going=keep_going)
-    datasets = {planned[place][0].row.name: dataset for place, dataset in found.found.items()}
-    return together(datasets, plan_of(planned).units), found
+    result = every_row.each(planned, swept, keep_going=keep_going)
+    datasets = {planned[place][0].row.name: dataset for place, dataset in result.found.items()}
+    return together(datasets, plan_of(planned).units), result
 
 
 def together(datasets: Mapping[str, xr.Dataset], units: Mapping[str, str]) -> xr.Dataset:
@@ -105,27 +105,27 @@ def together(datasets: Mapping[str, xr.Dataset], units: Mapping[str, str]) -> xr
             if name not in dataset
         }
         whole.append(dataset.drop_attrs(deep=False).assign(missing))
-    found = xr.concat(whole, dim=xr.DataArray(list(datasets), dims=SCREW, name=SCREW), join="exact", data_vars="all")
-    found[SCREW].attrs["long_name"] = "name of the screw in its table"
-    return _with_attributes(found, [dataset.attrs for dataset in datasets.values()], units)
+    combined = xr.concat(whole, dim=xr.DataArray(list(datasets), dims=SCREW, name=SCREW), join="exact", data_vars="all")
+    combined[SCREW].attrs["long_name"] = "name of the screw in its table"
+    return _with_attributes(combined, [dataset.attrs for dataset in datasets.values()], units)
 
 
 def _with_attributes(
-    found: xr.Dataset, attributes: Sequence[Mapping[str, Any]], units: Mapping[str, str]
+    dataset: xr.Dataset, attributes: Sequence[Mapping[str, Any]], units: Mapping[str, str]
 ) -> xr.Dataset:
     """Attributes that all have the same; others as coordinates along the screws, a number that is missing NaN."""
     every = dict.fromkeys(name for own in attributes for name in own)
     for name in every:
         values = [own.get(name) for own in attributes]
         if all(type(value) is type(values[0]) and np.all(value == values[0]) for value in values):
-            found.attrs[name] = values[0]
+            dataset.attrs[name] = values[0]
         elif all(value is None or (isinstance(value, int | float) and not isinstance(value, bool)) for value in values):
             numbers = [math.nan if value is None else float(value) for value in values]
-            found = found.assign_coords({name: (SCREW, numbers, {"units": units[name]} if name in units else {})})
+            dataset = dataset.assign_coords({name: (SCREW, numbers, {"units": units[name]} if name in units else {})})
         else:
             texts = ["" if value is None else str(value) for value in values]
-            found = found.assign_coords({name: (SCREW, texts)})
-    return found
+            dataset = dataset.assign_coords({name: (SCREW, texts)})
+    return dataset
 
 
 def plan_of(planned: Mapping[str, tuple[RowCase, Plan]]) -> Plan:

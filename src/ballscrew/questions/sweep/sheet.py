@@ -120,13 +120,13 @@ def _reason(case: Case, point: Mapping[str, float]) -> str:
         dataclasses.replace(case.screw, **changes)
     except InputError as error:
         sizes = fields_of(case.screw)
-        found: list[str] = []
+        names: list[str] = []
         for fault in error.faults:
             quantity = sizes[fault.where.rpartition(".")[2]]
             given = units.shown(getattr(case.screw, quantity.name), quantity)
             given = units.shown(point[quantity.name], quantity) if quantity.name in point else given
-            found.append(str(units.in_display_units(fault, quantity, given)))
-        return "; ".join(found)
+            names.append(str(units.in_display_units(fault, quantity, given)))
+        return "; ".join(names)
     return REASONS["inputs"]
 
 

@@ -84,12 +84,12 @@ def request(
         faults.append(Fault("--summary", problem, "", remedy))
     given = _conditions(grade, temperature, speed, faults)
     raise_if_any(faults)
-    found, notes = _sets(names, MODELS[model]) if not cards else ([], [])
-    if has_conditions and not any(data.conditioned for data in found):
+    result, notes = _sets(names, MODELS[model]) if not cards else ([], [])
+    if has_conditions and not any(data.conditioned for data in result):
         raise InputError(Fault("validate", "oil and speed do not move these sets", ", ".join(names), "leave them out"))
     chosen = calibration(calibration_name or DEFAULT_CALIBRATION)
     return Request(
-        sets=found,
+        sets=result,
         model=MODELS[model],
         # a calibration goes with its model, unless it is asked for
         calibration=chosen if calibration_name or chosen.model == model else None,

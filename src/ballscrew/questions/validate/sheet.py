@@ -88,11 +88,11 @@ def sheet(entries: Sequence[Entry], request: Request) -> Sheet:
     )
 
 
-def picture(found: Sequence[Sequence[Entry]], request: Request) -> Sheet:
+def picture(rows: Sequence[Sequence[Entry]], request: Request) -> Sheet:
     """The charts of all sets, with what is small below them."""
-    sheets = [sheet(entries, request) for entries in found]
+    sheets = [sheet(entries, request) for entries in rows]
     said = [f"model {request.model.name}"]
-    if (fitted := request.calibration) is not None and any(len(entries) > 1 for entries in found):
+    if (fitted := request.calibration) is not None and any(len(entries) > 1 for entries in rows):
         friction, share = fitted.boundary_friction_coefficient, fitted.share_of_load
         said.append(f"calibration {fitted.name}: boundary friction {friction:.3g}, ball force {share:.2g} of the load")
     blocks = [block for one in sheets for block in (lines([one.title], "small"), *one.of_kind(Lines, Chart))]
@@ -169,14 +169,14 @@ def _filled(name: str, rows: Sequence[Sequence[Cell]]) -> Table:
     return Table(name, "Model / stated", columns, [[row[i] for i in kept] for row in rows], notes, is_compact=True)
 
 
-def _statistics(name: str, found: Entry | RuleEntry, data: ValidationSet) -> list[Cell]:
-    n = found.n if isinstance(found, RuleEntry) else len(found.counted)
-    own = None if isinstance(found, RuleEntry) else found.share_in_uncertainty_band
-    width = None if isinstance(found, RuleEntry) else found.uncertainty_width
+def _statistics(name: str, result: Entry | RuleEntry, data: ValidationSet) -> list[Cell]:
+    n = result.n if isinstance(result, RuleEntry) else len(result.counted)
+    own = None if isinstance(result, RuleEntry) else result.share_in_uncertainty_band
+    width = None if isinstance(result, RuleEntry) else result.uncertainty_width
     # of screws that could be the one measured, and of parts of a whole, the mean says nothing
-    mean = [None] * 2 if data.alternatives or data.bound else [_number(found.mean_ratio), _number(found.std_ratio, 3)]
-    ends = [_number(end, 3) for end in found.range_ratio]
-    return [name, _number(n), *mean, *ends, _share(found.share_in_band), _share(own), _number(width, 2)]
+    mean = [None] * 2 if data.alternatives or data.bound else [_number(result.mean_ratio), _number(result.std_ratio, 3)]
+    ends = [_number(end, 3) for end in result.range_ratio]
+    return [name, _number(n), *mean, *ends, _share(result.share_in_band), _share(own), _number(width, 2)]
 
 
 def _definitions(entry: Entry, indent: str) -> list[list[Cell]]:

@@ -40,17 +40,17 @@ class SummaryRow:
     chosen_on: Sequence[str]
 
 
-def summary(request: Request, found: Sequence[Sequence[Entry]] = ()) -> tuple[list[SummaryRow], list[str]]:
+def summary(request: Request, result: Sequence[Sequence[Entry]] = ()) -> tuple[list[SummaryRow], list[str]]:
     """The table of the sets of a request that are torques of known nuts, and notes on rows left out.
 
     ``found`` has entries that were computed before, whose notes were said then.
     """
-    known = {(entry.data.name, entry.calibration): entry for entries in found for entry in entries}
+    known = {(entry.data.name, entry.calibration): entry for entries in result for entry in entries}
     rows: list[SummaryRow] = []
     notes: list[str] = []
     for entries, of_rows in _entries(request, known):
         rows += _of_groups(entries)
-        notes += of_rows if not found else []
+        notes += of_rows if not result else []
     return rows, notes
 
 
@@ -58,7 +58,7 @@ def _entries(
     request: Request, known: Mapping[tuple[str, str | None], Entry]
 ) -> Iterator[tuple[list[Entry], list[str]]]:
     """Each set with the model, and with every calibration of it, and notes on its rows."""
-    fits = [found for found in calibrations().values() if found.model == request.model.name]
+    fits = [each for each in calibrations().values() if each.model == request.model.name]
     for data in request.sets:
         if not data.of_screws or not data.calibratable or data.loaded or data.alternatives:
             continue

@@ -37,8 +37,8 @@ def with_bands(entry: Entry, samples: int = SAMPLES) -> Entry:
         alike.setdefault(_kind(case, drawn[place]), []).append(place)
     points = list(entry.points)
     for places in alike.values():
-        found = _bands([cases[place] for place in places], [drawn[place] for place in places], samples)
-        for place, ends in zip(places, found, strict=True):
+        result = _bands([cases[place] for place in places], [drawn[place] for place in places], samples)
+        for place, ends in zip(places, result, strict=True):
             points[place] = dataclasses.replace(points[place], uncertainty=ends)
     return dataclasses.replace(entry, points=points)
 
@@ -64,7 +64,7 @@ def _kind(case: Case, inputs: Mapping[str, Uncertain]) -> Hashable:
 def _bands(cases: Sequence[Case], inputs: Sequence[Mapping[str, Uncertain]], samples: int) -> list[tuple[float, float]]:
     """The ends of the bands of cases of one kind."""
     first = cases[0]
-    found = [bands.distributions(case, one) for case, one in zip(cases, inputs, strict=True)]
+    distributions = [bands.distributions(case, one) for case, one in zip(cases, inputs, strict=True)]
     # other than the first in nothing but numbers
     numbers = {name: [getattr(case.screw, name) for case in cases] for name in fields_of(BallScrew)}
     values = {name: np.array(of, dtype=float) for name, of in numbers.items() if any(one != of[0] for one in of)}
@@ -77,8 +77,8 @@ def _bands(cases: Sequence[Case], inputs: Sequence[Mapping[str, Uncertain]], sam
         Configuration(first.model, first.screw, first.lubricant),
         bands.alternatives(first),
         values,
-        [independent for independent, _ in found],
-        [joint for _, joint in found],
+        [independent for independent, _ in distributions],
+        [joint for _, joint in distributions],
     )
     # so few points are sooner computed by the model itself than recorded
     both = bands_of(group, [_TORQUE], count=samples, seed=0, level=bands.LEVEL, engine="model").both[_TORQUE]

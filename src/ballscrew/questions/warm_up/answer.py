@@ -107,22 +107,22 @@ class WarmUpResults(FullBath):
 
 def document(report: WarmUpReport) -> dict[str, Any]:
     """The document of warming up, in SI, with the surroundings that count where the case gives none."""
-    found = envelope(
+    result = envelope(
         report.case,
         results(report),
         assumed=report.assumed,
         warnings=verdicts.warnings(report),
         verdicts=verdicts.verdicts(report),
     )
-    return {**found, "inputs": {**duty_tables.inputs(None, None, None, report.surroundings), **found["inputs"]}}
+    return {**result, "inputs": {**duty_tables.inputs(None, None, None, report.surroundings), **result["inputs"]}}
 
 
-def with_band(found: WarmUpBandReport) -> dict[str, Any]:
+def with_band(warm_up_band_report: WarmUpBandReport) -> dict[str, Any]:
     """The document of warming up with its bands."""
-    whole, bands = document(found.report), found.bands
+    whole, bands = document(warm_up_band_report.report), warm_up_band_report.bands
     return {
         **whole,
-        "warnings": [*whole["warnings"], *documents(verdicts.band_records(found))],
+        "warnings": [*whole["warnings"], *documents(verdicts.band_records(warm_up_band_report))],
         "band": {
             "level": bands.level,
             "samples": bands.count,
@@ -139,7 +139,7 @@ def with_band(found: WarmUpBandReport) -> dict[str, Any]:
             },
             "inputs": {
                 name: {"distribution": one.description, "source": one.source, "given": one.given}
-                for name, one in found.inputs.items()
+                for name, one in warm_up_band_report.inputs.items()
             },
         },
     }
@@ -147,18 +147,18 @@ def with_band(found: WarmUpBandReport) -> dict[str, Any]:
 
 def results(report: WarmUpReport) -> WarmUpResults:
     """The results of a case that warms up."""
-    found, network, full = report.warm_up, report.warm_up.network, report.full_bath
+    result, network, full = report.warm_up, report.warm_up.network, report.full_bath
     return WarmUpResults(
         **_over_time(report),
-        flooded_torque=found.flooded_torque,
+        flooded_torque=result.flooded_torque,
         full_bath=None if full is None else FullBath(**_over_time(full)),
-        works=found.works,
-        source="spread" if found.along is None else "moving",
-        heat=Heat(**{name: float(values[-1]) for name, values in found.heat.items()}),
+        works=result.works,
+        source="spread" if result.along is None else "moving",
+        heat=Heat(**{name: float(values[-1]) for name, values in result.heat.items()}),
         drift=Drift(*report.drift),
         compensation=Compensation(*report.compensation),
-        shaft=Shaft(found.places.tolist(), found.shaft_temperature.tolist()),
-        stretch_left=found.stretch_left,
+        shaft=Shaft(result.places.tolist(), result.shaft_temperature.tolist()),
+        stretch_left=result.stretch_left,
         network=Network(
             network.ball_conductance,
             network.shaft.convection,

@@ -63,7 +63,7 @@ def band(
     joint = uncertain_inputs.joint_of(case, inputs)
     together = () if joint is None else joint.names
     with faults_named({"band.": "--"}):
-        found = warm_up_band(
+        result = warm_up_band(
             duty,
             surroundings,
             time=hours * HOUR,
@@ -75,7 +75,7 @@ def band(
             level=0.95 if level is None else level,
             done=done,
         )
-    return WarmUpBandReport(WarmUpReport(case, surroundings, found.warm_up, stroke), found, inputs)
+    return WarmUpBandReport(WarmUpReport(case, surroundings, result.warm_up, stroke), result, inputs)
 
 
 def inputs_of(case: Case, network: Network, only_given: bool) -> Mapping[str, Uncertain]:
@@ -85,16 +85,16 @@ def inputs_of(case: Case, network: Network, only_given: bool) -> Mapping[str, Un
         exact=case.exact | _OWN,
         uncertain={name: one for name, one in case.uncertain.items() if name not in _OWN},
     )
-    found = {name: one for name, one in uncertain_inputs.all_of(known, only_given).items() if name not in _OWN}
+    inputs = {name: one for name, one in uncertain_inputs.all_of(known, only_given).items() if name not in _OWN}
     quantities = fields_of(Surroundings)
     given = case.uncertain_surroundings
     for name, distribution in given.items():
         description = describe_distribution(distribution, quantities[name.removeprefix(PREFIX)])
-        found[name] = Uncertain(distribution, GIVEN, True, description)
+        inputs[name] = Uncertain(distribution, GIVEN, True, description)
     if not only_given:
         names = [name for name in VARIED if PREFIX + name not in {*given, *case.exact}]
         for name, distribution in uncertain_surroundings(network, names).items():
             why = default_uncertainties()[name]
             description = describe_distribution(distribution, quantities[name.removeprefix(PREFIX)])
-            found[name] = Uncertain(distribution, why.source, False, description, why.reason)
-    return found
+            inputs[name] = Uncertain(distribution, why.source, False, description, why.reason)
+    return inputs

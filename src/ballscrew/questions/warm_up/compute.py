@@ -148,15 +148,15 @@ class WarmUpReport:
     @lazy
     def series(self) -> Mapping[str, Numbers]:
         """Numbers over time in SI, as :data:`SERIES` has them."""
-        found = self.warm_up
-        first, last = found.bearing_temperatures
+        result = self.warm_up
+        first, last = result.bearing_temperatures
         known = {
-            "shaft_temperature": np.mean(found.shaft_temperature, axis=1),
+            "shaft_temperature": np.mean(result.shaft_temperature, axis=1),
             "first_bearing_temperature": first,
             "last_bearing_temperature": last,
-            **{f"heat_{name}": values for name, values in found.heat.items()},
+            **{f"heat_{name}": values for name, values in result.heat.items()},
         }
-        return {name: known[name] if name in known else getattr(found, name) for name in SERIES}
+        return {name: known[name] if name in known else getattr(result, name) for name in SERIES}
 
     @lazy
     def equilibrium(self) -> Mapping[str, float]:
@@ -185,21 +185,21 @@ class WarmUpReport:
 
 def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length | None) -> Sequence[str]:
     """Numbers of the heat that a case does not give, and what stands in for them."""
-    found = [*_assumed_sizes(case, given, network)]
+    names = [*_assumed_sizes(case, given, network)]
     if stroke is not None and given.stroke is None:
         length = units.shown(stroke, PLACE)
-        found.append(f"to and fro over {length}, half the shaft, under the load of the case")
+        names.append(f"to and fro over {length}, half the shaft, under the load of the case")
     if any(network.bearing_power):
         first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
-        found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
+        names.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
     else:
-        found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
+        names.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
     defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
     for name in OF_DEFAULTS:
         if getattr(given, name) == defaults[name] and name not in case.given_surroundings:
             meaning, value = _OF[name].info.meaning, units.shown(defaults[name], _OF[name])
-            found.append(f"{meaning} {value}: the default")
-    return found
+            names.append(f"{meaning} {value}: the default")
+    return names
 
 
 def _assumed_sizes(case: Case, given: Surroundings, network: Network) -> Iterator[str]:
@@ -342,7 +342,7 @@ def warmed_up(case: Case, hours: float = 4.0, cool_down: float = 0.0) -> WarmUpR
     """The warming up of a case for some hours, and its cooling down for some more."""
     surroundings = case.surroundings or Surroundings()
     duty, stroke = duty_of(case, surroundings)
-    found = warm_up(
+    result = warm_up(
         duty, surroundings, time=hours * HOUR, cool_down=cool_down * HOUR, shaft_length=length_of(case, surroundings)
     )
-    return WarmUpReport(case, surroundings, found, stroke)
+    return WarmUpReport(case, surroundings, result, stroke)

@@ -132,10 +132,10 @@ class SelfHeating:
 
     @property
     def _record(self) -> Record:
-        end, found = self.equilibrium, self.numbers
+        end, result = self.equilibrium, self.numbers
         oil, given, nut = (
             units.shown(temperature, TEMPERATURE)
-            for temperature in (found.oil_temperature, found.oil_temperature_given, end.nut_temperature)
+            for temperature in (result.oil_temperature, result.oil_temperature_given, end.nut_temperature)
         )
         preload = ""
         if end.network.preload_set:
@@ -174,9 +174,9 @@ def self_heating(case: Case) -> SelfHeating:
             Fault(OPTION, "finds no steady state in the range of oil and preload", f"margin {end.margin:.3g}", remedy)
         )
     warm = _warm(case, end)
-    given, found = _friction(case), _friction(warm)
-    flooded, flooded_torque = end, float(found.flooded_torque)
-    if found.starvation:  # friction that is larger makes heat of its own, which takes some of it away
+    given, result = _friction(case), _friction(warm)
+    flooded, flooded_torque = end, float(result.flooded_torque)
+    if result.starvation:  # friction that is larger makes heat of its own, which takes some of it away
         flooded = equilibrium(dataclasses.replace(end.network, friction=friction_map(duty.flooded)))
         flooded_torque = float(_friction(_warm(case, flooded)).flooded_torque) if flooded.exists else math.nan
     return SelfHeating(
@@ -185,7 +185,7 @@ def self_heating(case: Case) -> SelfHeating:
         end,
         flooded,
         float(given.screw_torque),
-        float(found.screw_torque),
+        float(result.screw_torque),
         float(given.flooded_torque),
         flooded_torque,
         float(stroke or 0.0),
@@ -218,7 +218,7 @@ def swept(
     check_oil(case)
     surroundings, point = case.surroundings or Surroundings(), _point_of(case)
     stroke = stroke_of(point, surroundings)
-    found, steady = warm_sweep.swept(
+    result, steady = warm_sweep.swept(
         Configuration(case.model, case.screw, case.lubricant),
         surroundings,
         varied,
@@ -230,7 +230,7 @@ def swept(
     )
     network = steady.network
     assumed = [] if network is None else assumed_of(case, surroundings, network, stroke)
-    return found.assign_attrs(assumed="\n".join(assumed))
+    return result.assign_attrs(assumed="\n".join(assumed))
 
 
 def _friction(case: Case) -> FrictionResult:

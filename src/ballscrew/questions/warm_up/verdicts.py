@@ -54,18 +54,18 @@ def _starved(report: WarmUpReport) -> list[Record]:
 
 def _preload(report: WarmUpReport) -> list[Record]:
     """The farthest that the preload goes from what was set at work, and where it goes on while the axis stands."""
-    found = report.warm_up
-    if not found.network.preload_set:
+    warm_up = report.warm_up
+    if not warm_up.network.preload_set:
         return []
-    start, at = float(found.preload[0]), _farthest(found.preload[found.works])
-    farthest = float(found.preload[at])
+    start, at = float(warm_up.preload[0]), _farthest(warm_up.preload[warm_up.works])
+    farthest = float(warm_up.preload[at])
     lost = farthest <= 0
     message = (
         f"the preload {_force(start)} is lost at work: the nut grows away from the shaft"
         if lost
         else f"the preload goes from {_force(start)} to {_force(farthest)} ({_change(farthest, start)}) at work"
     )
-    worst = float(found.preload[_farthest(found.preload)])
+    worst = float(warm_up.preload[_farthest(warm_up.preload)])
     if abs(worst - start) > _FARTHER * abs(farthest - start):
         message = (
             f"{message}, and while it stands to {_force(worst)} ({_change(worst, start)}): nut and shaft cool at "
@@ -108,9 +108,9 @@ def warnings(report: WarmUpReport) -> list[Record]:
     return [*once.values(), *_assumed_length(report), *_own_temperatures(report)]
 
 
-def band_records(found: WarmUpBandReport) -> list[Record]:
+def band_records(warm_up_band_report: WarmUpBandReport) -> list[Record]:
     """What is not in the bands: how halves are braced, and samples that have no steady state or leave what is known."""
-    bands, said = found.bands, list[Record]()
+    bands, said = warm_up_band_report.bands, list[Record]()
     if bands.warm_up.network.by_bracing:
         message = (
             "the bands have the radial growth alone: how the halves of the nut are braced moves the preload "
