@@ -335,7 +335,7 @@ def test_catalogue(server):
     assert server.get("catalogue").json() == json.loads(printed("catalogue", "list", "--json"))
     found = server.get("catalogue", params={"words": "Double 40x"}).json()
     assert found == json.loads(printed("catalogue", "list", "double", "40x", "--json"))
-    for name in list(catalogue())[::70]:
+    for name in [row.name for row in catalogue().values() if not row.refusal][::70]:
         row = server.get(f"catalogue/{name}").json()
         assert row.pop("case") == tomllib.loads(printed("catalogue", "show", name, "--case"))
         assert row == json.loads(printed("catalogue", "show", name.upper(), "--json"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -60,13 +61,17 @@ _NAMES: Mapping[str, tuple[str, ...]] = {
     ),
     "current": (
         "I", "Iq", "i_q", "motor current", "q current", "torque current", "Strom", "Motorstrom", "I_ist",
-        "drehmomentbildender Strom",
+        "current feedback", "drehmomentbildender Strom",
     ),
     "voltage": ("u", "vir", "control voltage", "command voltage", "drive voltage", "Stellspannung", "Steuerspannung"),
 }  # fmt: skip
 _HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwert", "value")
 #: The columns that the force comes from, the one that says most first, and those that the motion comes from.
-FORCES, PATHS = ("force", "torque", "current", "voltage"), ("position", "speed")
+FORCES, PATHS = ("force", "torque", "current", "voltage"), ("speed", "position")
+#: Units of controllers that write none, by column.
+_OF_CONTROLLERS: Mapping[str, str] = {"time": "s", "position": "mm", "speed": "mm/s", "current": "A"}
+#: A heading of one axis of several: X1_ActualPosition.
+_OF_AXIS = re.compile(r"([A-Za-z]+\d*)[_ .](.+)")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -81,6 +86,7 @@ class _ForceLike:
 QUANTITIES: Mapping[str, Quantity] = {**quantities(), **quantities_of(_ForceLike)}
 COLUMNS = tuple(Column(name, QUANTITIES[name], names, name == "time", _HINTS) for name, names in _NAMES.items())
 _BY_NAME: Mapping[str, Column] = {column.name: column for column in COLUMNS}
+_TIMES = frozenset(map(bare, ("time", *_NAMES["time"])))
 #: Channels of the EMPS benchmark (JanotGautierBrunot2019) with the units that its description gives, and its gain, N/V.
 EMPS: Mapping[str, str] = {"time": "t [s]", "position": "qm [m]", "voltage": "vir [V]"}
 EMPS_GAIN = "gtau"
@@ -91,13 +97,15 @@ def is_emps(names: Sequence[Any]) -> bool:
     return {text.partition(" ")[0] for text in EMPS.values()} <= {str(name) for name in names}
 
 
-def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
+def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str], *, has_time: bool = True) -> Layout:
     """The layout of a moving log, from its first rows and the headings given by the user, by name.
+
+    ``has_time`` is false for a log whose rows follow each other at a period that is given.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
     rows, written = _renamed(found, flags)
-    columns = _wanted({_known(name) for name in flags})
+    columns = [column for column in _wanted({_known(name) for name in flags}) if has_time or column.name != "time"]
     start, headings = headings_in(path, rows, columns, WITHIN)
     headings = as_in_file(_chosen(headings), start, written)
     body = rows[start + 1 :]
@@ -130,6 +138,31 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str])
         rest,
         words,
     )
+
+
+def headings_of_axis(found: Sequence[Record], axis: str) -> list[Record]:
+    """The first rows of a log of several axes with the headings of one, and with units where these have none.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for an axis that no heading begins with.
+    """
+    matches = [[_OF_AXIS.fullmatch(str(cell)) for cell in record.cells] for record in found[:WITHIN]]
+    place = next((n for n, row in enumerate(matches) if any(one and one[1] == axis for one in row)), None)
+    if place is None:
+        axes = dict.fromkeys(one[1] for row in matches for one in row if one)
+        raise InputError(Fault("--axis", "no heading begins with it", axis, nearest(axis, axes)))
+    cells = [
+        _unit_of_controller(match[2]) if match and match[1] == axis else cell if bare(str(cell)) in _TIMES else ""
+        for match, cell in zip(matches[place], found[place].cells, strict=True)
+    ]
+    return [Record(found[place].line, cells), *found[place + 1 :]]
+
+
+def _unit_of_controller(name: str) -> str:
+    """A heading in words, ``Actual Velocity [mm/s]`` of ``ActualVelocity``."""
+    words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).replace("_", " ")
+    column = next((column for column in COLUMNS if column.is_named(words)), None)
+    unit = "" if column is None else _OF_CONTROLLERS.get(column.name, "")
+    return f"{words} [{unit}]" if unit else words
 
 
 def has_columns(found: Sequence[Record], flags: Mapping[str, str]) -> bool:
@@ -207,7 +240,7 @@ def _chosen(headings: Sequence[Heading]) -> list[Heading]:
 
 def _check_needed(path: Path, headings: Sequence[Heading]) -> None:
     names = {heading.column.name for heading in headings}
-    for family, meaning in ((FORCES, "force"), (PATHS, "position")):
+    for family, meaning in ((FORCES, "force"), (PATHS[::-1], "position")):
         if not names & {*family}:
             column = _BY_NAME[family[0]]
             others = ", ".join(_BY_NAME[name].example for name in family[1:])

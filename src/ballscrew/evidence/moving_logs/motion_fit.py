@@ -214,6 +214,7 @@ def fit_motion(
         raise InputError(
             Fault(name, "the force has the sign against the acceleration", f"{linear.values[0]:.4g} kg", remedy)
         )
+    _check_mass(name, linear)
     power = power_law(equation, seed=seed)
     warnings = [*linear.warnings, *_remarks(power)]
     found_screw = None
@@ -261,6 +262,17 @@ def fit_motion(
     )
     crossed = {name: relative_error(found.force(name, other) - other.force, other.force) for name in errors}
     return dataclasses.replace(found, cross_errors=crossed, test=other)
+
+
+def _check_mass(name: str, linear: LinearModel) -> None:
+    """Raise for a log that does not tell the mass, whose estimate is then none of a mass."""
+    mass, half = float(linear.values[0]), float(linear.solution.half_width()[0])
+    if mass <= 0:
+        problem = "does not tell the mass"
+        if np.isfinite(half):
+            problem += f": by its accelerations it is {mass - half:.3g} to {mass + half:.3g} kg"
+        remedy = "record more rows a second, or steeper ramps; the friction alone is that of rows at constant speed"
+        raise InputError(Fault(name, problem, f"{mass:.3g} kg", remedy))
 
 
 def _faults(free: Any, carried_mass: Any, seed: Any) -> list[Fault]:

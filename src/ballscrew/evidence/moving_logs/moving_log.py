@@ -53,6 +53,8 @@ class MovingLog:
     source: tuple[str, str] | None = None
     #: Force for each volt of a control voltage, N/V, where the force came from one.
     gain: float = np.nan
+    #: Unit of the ``force``; A where it is the current of a motor whose torque constant is not known.
+    unit: str = "N"
 
     def __post_init__(self) -> None:
         if self.position is None and self.speed is None:

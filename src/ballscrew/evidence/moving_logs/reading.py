@@ -21,9 +21,9 @@ from ballscrew.evidence.moving_logs.columns import (
     EMPS,
     EMPS_GAIN,
     FORCES,
-    PATHS,
     QUANTITIES,
     has_columns,
+    headings_of_axis,
     is_emps,
     moving_layout,
 )
@@ -51,13 +51,19 @@ def read_moving(
     torque_constant: float | None = None,
     gain: float | None = None,
     usual_gain: float | None = None,
+    axis: str = "",
+    period: float | None = None,
+    in_amperes: bool = False,
     keep_going: bool = False,
 ) -> MovingLog:
     """The moving log of a file, in SI and not yet checked; its force is that at the nut without friction.
 
     A torque becomes a force by the ``lead`` (m), a current by the ``torque_constant`` (N m/A) as well, a control
     voltage by the ``gain`` (N/V), which the channel ``gtau`` of the EMPS benchmark gives; ``usual_gain`` holds where
-    neither does. ``columns`` says which heading a column has, and its unit: ``{"position": "x_ist [mm]"}``.
+    neither does. ``axis`` begins the headings of one axis of several (``X1``), in the units of controllers where they
+    have none, mm, mm/s and A; ``period`` (s) is the time between rows of a log without one. A current whose torque
+    constant is not known may stay one, ``in_amperes``. ``columns`` says which heading a column has, and its unit:
+    ``{"position": "x_ist [mm]"}``.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for faults of the file, and for cells that are no numbers; with
     ``keep_going`` these count as missing.
@@ -68,7 +74,7 @@ def read_moving(
         if is_matlab(path, begin):
             found, line, notes, own_gain = _of_matlab(path, begin, columns)
         else:
-            found, line, notes = _of_table(path, columns, keep_going)
+            found, line, notes = _of_table(path, columns, keep_going, axis, period)
             own_gain = None
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
     except (OSError, ValueError) as error:
@@ -79,10 +85,18 @@ def read_moving(
         values[~within_bounds(QUANTITIES[name].info, values)] = np.nan
     raise_if_any(_empty(path.name, found))
     known = next(one for one in (gain, own_gain, usual_gain, math.nan) if one is not None)
-    force = _force(path.name, found, lead, torque_constant, known)
-    position, speed = (found.get(name) for name in PATHS)
+    in_amperes = in_amperes and torque_constant is None and next(name for name in FORCES if name in found) == "current"
+    force = found["current"] if in_amperes else _force(path.name, found, lead, torque_constant, known)
     return MovingLog(
-        found["time"], force, position, speed, line=line, notes=tuple(notes), source=(path.name, digest), gain=known
+        found["time"],
+        force,
+        found.get("position"),
+        found.get("speed"),
+        line=line,
+        notes=tuple(notes),
+        source=(path.name, digest),
+        gain=known,
+        unit="A" if in_amperes else "N",
     )
 
 
@@ -160,13 +174,14 @@ def _of_matlab(
 
 
 def _of_table(
-    path: Path, columns: Mapping[str, str], keep_going: bool
+    path: Path, columns: Mapping[str, str], keep_going: bool, axis: str, period: float | None
 ) -> tuple[_Numbers, NDArray[np.int64], list[str]]:
     with path.open("rb") as file:
         source = source_of(path, file, None)
         if not source.found:
             raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
-        place = moving_layout(path, source.found, columns)
+        top = headings_of_axis(source.found, axis) if axis else source.found
+        place = moving_layout(path, top, columns, has_time=period is None)
         cells = NumberReader(place, keep_going)
         parts: list[_Numbers] = []
         lines: list[NDArray[np.int64]] = []
@@ -186,7 +201,12 @@ def _of_table(
     if not line.size:
         raise InputError(Fault(path.name, "has no rows below its headings", "", "give one row for each sample"))
     found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    notes = _of_unused(place)
+    notes = [] if axis else _of_unused(place)
+    if period is not None:
+        found["time"] = period * np.arange(line.size, dtype=float)
+        notes.append(f"time: a row each {period:g} s, as given")
+    if axis:
+        notes.append(f"axis {axis}: units that headings do not have are mm, mm/s and A")
     if cells.bad_rows:
         notes.append(f"{cells.bad_rows} rows have cells that are no numbers: they count as missing")
     return found, line, notes

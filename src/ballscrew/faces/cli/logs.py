@@ -216,6 +216,12 @@ def _fit_motion(
     options = read(FitMotionOptions, written)
     read_log = moving_log(case, log, options)
     test_log = None if test is None else moving_log(case, test, options, usual_gain=read_log.gain)
+    if options.steady:
+        from ballscrew.questions.fit_motion import steady
+
+        friction = steady.of_logs(read_log, test_log)
+        output.print(steady.sheet(friction, read_log), lambda: steady.document(friction, read_log))
+        return steady.sheet(friction, read_log), sum(one.rows for one in friction.speeds)
     # solvers are slow to import: only for a log that can be read
     from ballscrew.questions.fit_motion import compute
     from ballscrew.questions.fit_motion.document import document

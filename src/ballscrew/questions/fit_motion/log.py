@@ -33,5 +33,8 @@ def moving_log(case: Case, path: Path, options: FitMotionOptions, usual_gain: fl
         torque_constant=options.torque_constant,
         gain=options.gain,
         usual_gain=usual_gain,
+        axis=options.axis,
+        period=options.period,
+        in_amperes=options.steady,
         keep_going=options.keep_going,
     )

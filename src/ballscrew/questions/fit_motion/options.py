@@ -28,5 +28,14 @@ class FitMotionOptions:
         float | None,
         Option('Mass that the nut of a moving log carries: "20 kg".', metavar="VALUE", unit="kg", at_least=0),
     ] = None
+    axis: Annotated[str, Option('Axis of a log of several: "X1", with which its headings begin.', metavar="NAME")] = ""
+    period: Annotated[
+        float | None,
+        Option('Time between the rows of a log without a time: "0.1 s".', metavar="TIME", unit="s", above=0),
+    ] = None
+    steady: Annotated[
+        bool,
+        Option("Friction over speed of rows at constant speed, and no motion; in A without a torque constant."),
+    ] = False
     seed: Annotated[int, Option("Seed of the choice of held-out operating points.", metavar="N")] = 0
     keep_going: KeepGoing = False

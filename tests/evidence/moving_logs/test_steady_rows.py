@@ -1,0 +1,90 @@
+"""Friction over speed from rows at constant speed: a law put in comes out, and a real mill as read by hand."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.evidence.moving_logs.reading import read_moving
+from ballscrew.evidence.moving_logs.steady_rows import steady_friction
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+FILES = [str(EXAMPLES / f"{name}.csv") for name in ("mill_slow", "mill_fast")]
+OPTIONS = ("--period", "0.1 s", "--case", str(EXAMPLES / "feed_axis.toml"), "--json")
+
+
+def log_of(speeds, friction, offset=0.0):
+    """Strokes there and back at each speed, three times, with a force that also accelerates 50 kg."""
+    ramp = np.array([0.0, 0.137, 0.311, 0.573, 0.831])
+    stroke = np.concatenate([[0.0] * 5, ramp, [1.0] * 20, ramp[::-1]])
+    speed = np.concatenate([sign * v * stroke for v in speeds for _ in range(3) for sign in (1, -1)])
+    time = 0.1 * np.arange(speed.size)
+    force = np.sign(speed) * friction(np.abs(speed)) + offset + 50 * np.gradient(speed, time)
+    return MovingLog(time=time, force=force, speed=np.round(speed, 6))
+
+
+def test_a_law_of_friction_comes_out():
+    found = steady_friction(log_of([0.01, 0.03, 0.1, 0.3], lambda v: 40 * v**0.4, offset=7.0))
+    assert [one.speed for one in found.speeds] == pytest.approx([0.01, 0.03, 0.1, 0.3], rel=1e-6)
+    assert [one.friction for one in found.speeds] == pytest.approx(
+        [40 * one.speed**0.4 for one in found.speeds], rel=1e-6
+    )
+    assert [one.offset for one in found.speeds] == pytest.approx([7.0] * 4)
+
+
+def test_noise_is_in_the_interval_of_the_exponent():
+    rng = np.random.default_rng(3)
+    log = log_of([0.01, 0.03, 0.1, 0.3], lambda v: 40 * v**0.4)
+    noisy = MovingLog(time=log.time, force=log.force + rng.normal(0, 0.5, len(log)), speed=log.speed)
+    low, high = steady_friction(noisy).interval
+    assert low < 0.4 < high
+    assert high - low < 0.1
+
+
+def test_what_cannot_be_told_is_refused():
+    with pytest.raises(InputError, match="no rows at constant speed in both directions"):
+        steady_friction(MovingLog(time=np.arange(300.0), force=np.ones(300), speed=np.full(300, 0.1)))
+    with pytest.raises(InputError, match="no column of a speed"):
+        steady_friction(MovingLog(time=np.arange(300.0), force=np.ones(300), position=np.arange(300.0)))
+    slow = log_of([0.01, 0.02], lambda v: 40 + 0 * v)
+    assert np.isnan(steady_friction(slow).exponent)
+
+
+@pytest.mark.parametrize(("speed", "low", "high"), [("mill_slow", 4.2, 5.2), ("mill_fast", 6.5, 7.5)])
+def test_a_real_mill_as_read_by_hand(speed, low, high):
+    """Amperes of the X axis at 3 and at 20 mm/s, by thirty lines written apart from this program."""
+    log = read_moving(EXAMPLES / f"{speed}.csv", lead=0.01, axis="X1", period=0.1, in_amperes=True)
+    (steady,) = steady_friction(log).speeds
+    assert low < steady.friction < high
+    assert 0.05 < steady.std < 0.6
+    assert log.unit == "A"
+
+
+def test_on_the_command_line(ballscrew):
+    document = json.loads(ballscrew("fit", FILES[0], "--test", FILES[1], "--steady", "--axis", "X1", *OPTIONS).stdout)
+    assert document["unit"] == "A"
+    assert len(document["speeds"]) == 2
+    low, high = document["speed_exponent"]["interval"]
+    assert 0 < low < document["speed_exponent"]["value"] < high < 1
+
+
+@pytest.mark.parametrize("axis", ["X1", "Y1"])
+def test_a_motion_that_the_log_does_not_tell_is_refused_in_one_line(ballscrew, axis):
+    process = ballscrew("fit", FILES[1], "--moving", "--axis", axis, "--torque-constant", "0.5 N m/A", *OPTIONS)
+    assert (process.returncode, process.stdout) == (2, "")
+    (line,) = process.stderr.strip().splitlines()
+    assert "moves too little above its noise" in line
+
+
+def test_options_of_logs_of_controllers(ballscrew):
+    for options, text in (
+        (("--axis", "Q7", *OPTIONS), "--axis: no heading begins with it (Q7)"),
+        (("--axis", "X1", *OPTIONS[2:]), 'has no column "time [s]"'),
+    ):
+        process = ballscrew("fit", FILES[0], "--moving", *options)
+        assert process.returncode == 2
+        (line,) = process.stderr.strip().splitlines()
+        assert text in line
