@@ -295,8 +295,7 @@ def _short_reversal(report: DutyReport) -> list[Record]:
     message = (
         f"friction changes its sign at once here, but after a reversal {units.percent(BACK)} of that of the screw "
         f"are back within {units.shown(short_reversal.back, TRAVEL, 3)}, and the shortest stroke is {stroke}: to and "
-        f"fro 
-        f"over it the screw loses {units.percent(short_reversal.work_share)} of the work counted, by a hypothesis "
+        f"fro over it the screw loses {units.percent(short_reversal.work_share)} of the work counted, by a hypothesis "
         "(ballscrew reversal)"
     )
     return [
