@@ -102,22 +102,22 @@ def screws(path: str | Path, *, keep_going: bool = False) -> Screws:
     taken: dict[str, int] = {}
     logs: dict[str, Path] = {}
     odd: list[str] = []
-    found, notes = made(table, lambda row: _made(row, path, taken, logs, odd), keep_going)
-    estimated = [row.name for row in found if row.ball_diameter_source]
+    result, notes = made(table, lambda row: _made(row, path, taken, logs, odd), keep_going)
+    estimated = [row.name for row in result if row.ball_diameter_source]
     if estimated:
         notes.append(
             f"{path.name}: ball diameters are estimated of {len(estimated)} rows: {', '.join(estimated[:5])}"
             + (", …" if len(estimated) > 5 else "")
         )
-    return Screws(found, path.name, [*notes, *odd], logs)
+    return Screws(result, path.name, [*notes, *odd], logs)
 
 
 def load(path: Path | None, keep_going: bool = False) -> tuple[Mapping[str, CatalogueRow], Sequence[str]]:
     """The rows of a table, or those shipped, by name, and what is to be said of rows left out."""
     if path is None:
         return catalogue(), ()
-    found = screws(path, keep_going=keep_going)
-    return found, found.notes
+    result = screws(path, keep_going=keep_going)
+    return result, result.notes
 
 
 def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], odd: list[str]) -> CatalogueRow:
@@ -144,11 +144,11 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], od
         fields: dict[str, Any] = {**values, "nut": kind_in(values.get("nut", ""))}
         if is_estimated:
             own = completed(fields)
-            found = own.row
+            catalogue_row = own.row
             odd += [f"{path.name} row {row.line}: {one.text}" for one in own.warnings]
         else:
-            found = CatalogueRow(**fields)
-        found.screw()
+            catalogue_row = CatalogueRow(**fields)
+        catalogue_row.screw()
     except InputError as error:
         # a share stands in the column of the preload
         of_row = [_in_column(fault, row) for fault in error.faults]
@@ -157,7 +157,7 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], od
     taken[name] = row.line
     if log is not None:
         logs[name] = path.parent / log
-    return found
+    return catalogue_row
 
 
 def _seal_torque(word: str, values: Mapping[str, Any], faults: list[Fault]) -> float | None:
@@ -201,14 +201,14 @@ def chosen(rows: Mapping[str, CatalogueRow], words: str, file: Path | None = Non
     ``40x10x6``. Any other word stands in name, source or kind of nut.
     """
     asked = words.casefold().split()
-    found = [row for row in rows.values() if all(_has(row, word) for word in asked)]
-    if not found:
+    catalogue_rows = [row for row in rows.values() if all(_has(row, word) for word in asked)]
+    if not catalogue_rows:
         where = "catalogue" if file is None else file.name
         remedy = "leave them out to see all rows"
         if any(map(_SIZES.fullmatch, asked)):
             remedy += "; sizes are diameter x lead in mm: 40x10, or 40x for all of 40 mm"
         raise InputError(Fault(where, "no row has these words", words, remedy))
-    return found
+    return catalogue_rows
 
 
 def computable(rows: Sequence[CatalogueRow]) -> tuple[list[CatalogueRow], list[str]]:
@@ -293,19 +293,19 @@ def assumed(row: CatalogueRow) -> dict[str, str]:
         "contact_angle": f"contact angle {angle}, the usual one",
         "conformity": f"conformity {row.conformity:g} ± {CONFORMITY_DOUBT:g}, as most listed root diameters imply",
     }
-    found = {name: text for name, text in words.items() if getattr(row, name) == _DEFAULTS[name]}
+    values = {name: text for name, text in words.items() if getattr(row, name) == _DEFAULTS[name]}
     if row.pitch_circle_diameter is None:
-        found["pitch_circle_diameter"] = (
+        values["pitch_circle_diameter"] = (
             "pitch circle as large as the nominal diameter; those that catalogues list are mostly 1.5 to 5 % larger"
         )
     if row.ball_diameter_source == column_names.ESTIMATED:
-        found["ball_diameter"] = "ball diameter: an estimate, by the depth of the groove and the load ratings"
+        values["ball_diameter"] = "ball diameter: an estimate, by the depth of the groove and the load ratings"
     elif row.ball_diameter_source:
-        found["ball_diameter"] = f"ball diameter: {row.ball_diameter_source}"
-    found["loaded_turns"] = f"{row.turns_without_load:g} turns without load where the balls leave and enter" + (
+        values["ball_diameter"] = f"ball diameter: {row.ball_diameter_source}"
+    values["loaded_turns"] = f"{row.turns_without_load:g} turns without load where the balls leave and enter" + (
         " (ISO 3408-5)" if row.turns_without_load == TURNS_WITHOUT_LOAD else ""
     )
-    return found
+    return values
 
 
 def notes(row: CatalogueRow) -> list[str]:
@@ -477,5 +477,5 @@ def _document(row: CatalogueRow) -> dict[str, Any]:
 
 def _with_units(document: dict[str, Any]) -> dict[str, Any]:
     parts = {"row": FIELDS, "derived": DERIVED, "computed": {name: FIELDS[name] for name in RATED}}
-    found = {part: {name: quantity.unit for name, quantity in names.items()} for part, names in parts.items()}
-    return document | {"units": found, "provenance": {"version": __version__}}
+    values = {part: {name: quantity.unit for name, quantity in names.items()} for part, names in parts.items()}
+    return document | {"units": values, "provenance": {"version": __version__}}

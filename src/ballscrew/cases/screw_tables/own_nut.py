@@ -73,23 +73,23 @@ def numbers_in(text: str) -> dict[str, str]:
 
     Raises :class:`~ballscrew.basis.errors.InputError` for a part that is no NAME=VALUE.
     """
-    found: dict[str, str] = {}
+    numbers: dict[str, str] = {}
     for part in filter(None, map(str.strip, re.split(r"[,;](?!\d)", text))):
         name, equals, value = part.partition("=")
         name = name.strip()
-        if not equals or not name or name in found:
-            problem = "is given twice" if name in found else "is no NAME=VALUE"
+        if not equals or not name or name in numbers:
+            problem = "is given twice" if name in numbers else "is no NAME=VALUE"
             raise InputError(Fault(WHERE, problem, part, 'write "d0=40 mm, lead=10 mm, turns=5"'))
-        found[name] = value.strip()
-    return found
+        numbers[name] = value.strip()
+    return numbers
 
 
 def _column(name: str) -> Column | None:
     """The column of that name, if one alone has it."""
     if name in _COLUMNS:
         return _COLUMNS[name]
-    found = [column for column in _COLUMNS.values() if column.answers_to(name)]
-    return found[0] if len(found) == 1 else None
+    values = [column for column in _COLUMNS.values() if column.answers_to(name)]
+    return values[0] if len(values) == 1 else None
 
 
 def _value(where: str, given: Any, text: str, column: Column, decimal: frozenset[str]) -> Any:

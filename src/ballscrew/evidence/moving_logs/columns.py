@@ -97,14 +97,14 @@ def is_emps(names: Sequence[Any]) -> bool:
     return {text.partition(" ")[0] for text in EMPS.values()} <= {str(name) for name in names}
 
 
-def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str], *, has_time: bool = True) -> Layout:
+def moving_layout(path: Path, records: Sequence[Record], flags: Mapping[str, str], *, has_time: bool = True) -> Layout:
     """The layout of a moving log, from its first rows and the headings given by the user, by name.
 
     ``has_time`` is false for a log whose rows follow each other at a period that is given.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
-    rows, written = _renamed(found, flags)
+    rows, written = _renamed(records, flags)
     columns = [column for column in _wanted({_known(name) for name in flags}) if has_time or column.name != "time"]
     start, headings = headings_in(path, rows, columns, WITHIN)
     headings = as_in_file(_chosen(headings), start, written)
@@ -118,13 +118,13 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str],
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
-        there = headings_of(found[start])
+        there = headings_of(records[start])
         raise InputError(
             *(with_option(fault, headings, _BY_NAME, there, constants=False) for fault in error.faults)
         ) from None
     _check_needed(path, good)
-    rest = unused(found[start], good, body[:WITHIN])
-    above = [found[start], found[start + 1]] if below else [found[start]]
+    rest = unused(records[start], good, body[:WITHIN])
+    above = [records[start], records[start + 1]] if below else [records[start]]
     words = frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell)
     named = {heading.column.name: heading for heading in good}
     return Layout(
@@ -132,7 +132,7 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str],
         named,
         {},
         above[-1].line,
-        len(found[start].cells),
+        len(records[start].cells),
         decimals.evidence(texts_in(good, body)),
         dates,
         rest,
@@ -140,21 +140,21 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str],
     )
 
 
-def headings_of_axis(found: Sequence[Record], axis: str) -> list[Record]:
+def headings_of_axis(records: Sequence[Record], axis: str) -> list[Record]:
     """The first rows of a log of several axes with the headings of one, and with units where these have none.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for an axis that no heading begins with.
     """
-    matches = [[_OF_AXIS.fullmatch(str(cell)) for cell in record.cells] for record in found[:WITHIN]]
+    matches = [[_OF_AXIS.fullmatch(str(cell)) for cell in record.cells] for record in records[:WITHIN]]
     place = next((n for n, row in enumerate(matches) if any(one and one[1] == axis for one in row)), None)
     if place is None:
         axes = dict.fromkeys(one[1] for row in matches for one in row if one)
         raise InputError(Fault("--axis", "no heading begins with it", axis, nearest(axis, axes)))
     cells = [
         _unit_of_controller(match[2]) if match and match[1] == axis else cell if bare(str(cell)) in _TIMES else ""
-        for match, cell in zip(matches[place], found[place].cells, strict=True)
+        for match, cell in zip(matches[place], records[place].cells, strict=True)
     ]
-    return [Record(found[place].line, cells), *found[place + 1 :]]
+    return [Record(records[place].line, cells), *records[place + 1 :]]
 
 
 def _unit_of_controller(name: str) -> str:
@@ -165,12 +165,12 @@ def _unit_of_controller(name: str) -> str:
     return f"{words} [{unit}]" if unit else words
 
 
-def has_columns(found: Sequence[Record], flags: Mapping[str, str]) -> bool:
+def has_columns(records: Sequence[Record], flags: Mapping[str, str]) -> bool:
     """Test whether there are headings of a time, of a position, and of something that a force is made from."""
-    if not found:
+    if not records:
         return False
     try:
-        rows, _ = _renamed(found, flags)
+        rows, _ = _renamed(records, flags)
         _, headings = headings_in(Path("log"), rows, COLUMNS, WITHIN)
     except InputError:
         return False
@@ -185,9 +185,9 @@ def _known(name: str) -> str:
     return column.name
 
 
-def _renamed(found: Sequence[Record], flags: Mapping[str, str]) -> tuple[list[Record], dict[tuple[int, int], str]]:
+def _renamed(records: Sequence[Record], flags: Mapping[str, str]) -> tuple[list[Record], dict[tuple[int, int], str]]:
     """Rows with the headings given by the user under their standard names, and the cells as written."""
-    rows, written = list(found), dict[tuple[int, int], str]()
+    rows, written = list(records), dict[tuple[int, int], str]()
     for flag, text in flags.items():
         name = _known(flag)
         parts = BRACKETS.fullmatch(" ".join(text.split()))
@@ -198,16 +198,16 @@ def _renamed(found: Sequence[Record], flags: Mapping[str, str]) -> tuple[list[Re
             raise InputError(fault if isinstance(fault, Fault) else Fault(f"--column {name}", "wrong unit", unit))
         places = [
             (number, place)
-            for number, record in enumerate(found[:WITHIN])
+            for number, record in enumerate(records[:WITHIN])
             for place, cell in enumerate(record.cells)
             if isinstance(cell, str) and cell and bare(cell) in {bare(text), bare(wanted), bare(f"{wanted} {unit}")}
         ]
         if not places:
-            there = headings_of(likely_headings(found[:WITHIN], COLUMNS))
+            there = headings_of(likely_headings(records[:WITHIN], COLUMNS))
             raise InputError(Fault(f"--column {name}", "is not a column of the file", text, nearest(wanted, there)))
-        number, place = min(places, key=lambda at: str(found[at[0]].cells[at[1]]) not in {text, wanted})
-        written[number, place] = str(found[number].cells[place])
-        cell = str(found[number].cells[place])
+        number, place = min(places, key=lambda at: str(records[at[0]].cells[at[1]]) not in {text, wanted})
+        written[number, place] = str(records[number].cells[place])
+        cell = str(records[number].cells[place])
         own = BRACKETS.fullmatch(cell)
         unit = unit or (own["unit"] if own else "")
         cells = list(rows[number].cells)

@@ -157,7 +157,7 @@ def dead_time(equation: Equation) -> tuple[DeadTime, Equation]:
     The force is followed by what it does: F(t) = f(t + τ) ≈ f + τ f′ with f the right-hand side. A dead time below one
     step of time is within the way that samples are taken, and stays.
     """
-    total, found = equation.shift, np.zeros(2)
+    total, result = equation.shift, np.zeros(2)
     for _ in range(_ROUNDS):
         columns = _linear_columns(equation.kinematics)
         sides = equation.filtered(columns)
@@ -166,14 +166,14 @@ def dead_time(equation: Equation) -> tuple[DeadTime, Equation]:
             np.gradient(low_pass(columns @ values, equation.kinematics.cutoff, equation.log.step))
         )
         solved = LeastSquares.of(np.column_stack([sides, slope / equation.log.step]), equation.force)
-        found = np.array([solved.values[-1], solved.half_width()[-1]])
+        result = np.array([solved.values[-1], solved.half_width()[-1]])
         step = equation.log.step
-        if abs(found[0]) - found[1] < step or abs(total + found[0]) > equation.log.step * len(equation.log) / 20:
+        if abs(result[0]) - result[1] < step or abs(total + result[0]) > equation.log.step * len(equation.log) / 20:
             break
-        total += float(found[0])
+        total += float(result[0])
         equation = Equation.of(
             equation.log, cutoff=equation.cutoff, path_cutoff=equation.kinematics.cutoff, shift=total
         )
     corrected = equation.shift != 0
-    value = equation.shift + float(found[0])
-    return DeadTime(value, max(float(found[1]), _OF_A_STEP * equation.log.step), corrected), equation
+    value = equation.shift + float(result[0])
+    return DeadTime(value, max(float(result[1]), _OF_A_STEP * equation.log.step), corrected), equation

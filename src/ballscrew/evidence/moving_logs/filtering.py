@@ -88,15 +88,15 @@ def kinematics(path: Floats, step: float, *, is_speed: bool = False, cutoff: flo
 
     Five-point central differences follow the slope of a wave of f Δt = 0.05 to 3·10⁻⁴ of its size.
     """
-    found, noise = noise_cutoff(path, step)
-    found = found if cutoff is None else float(np.clip(cutoff, NARROWEST / step, WIDEST / step))
-    smooth = low_pass(path, found, step)
+    result, noise = noise_cutoff(path, step)
+    result = result if cutoff is None else float(np.clip(cutoff, NARROWEST / step, WIDEST / step))
+    smooth = low_pass(path, result, step)
     first, second = _differences(smooth, step)
     speed, acceleration = (smooth, first) if is_speed else (first, second)
     # density of white noise times the square of the gain of a derivative, integrated up to the cutoff
-    share = 2 * step * found
-    gain = 1.0 if is_speed else (2 * np.pi * found) ** 2 / 3
-    return Kinematics(speed, acceleration, found, noise, float(noise * np.sqrt(share * gain)))
+    share = 2 * step * result
+    gain = 1.0 if is_speed else (2 * np.pi * result) ** 2 / 3
+    return Kinematics(speed, acceleration, result, noise, float(noise * np.sqrt(share * gain)))
 
 
 def _differences(values: Floats, step: float) -> tuple[Floats, Floats]:

@@ -160,9 +160,9 @@ class MotionFit:
 
         The rows are those of this log, or those of the ``equation`` of another.
         """
-        found = {LINEAR: self.linear, POWER: self.power, SCREW: self.screw}[model]
-        assert found is not None
-        return found.force(equation or self.equation)
+        result = {LINEAR: self.linear, POWER: self.power, SCREW: self.screw}[model]
+        assert result is not None
+        return result.force(equation or self.equation)
 
 
 @accepts_units("fit_motion")
@@ -239,7 +239,7 @@ def fit_motion(
         warnings += _of_screw(found_screw, linear, asked)
     estimates = _estimates(linear, power, found_screw, delay, carried_mass)
     warnings += _unidentified(estimates)
-    found = MotionFit(
+    motion_fit = MotionFit(
         estimates,
         errors,
         {},
@@ -253,15 +253,15 @@ def fit_motion(
         tuple(warnings),
     )
     if test is None:
-        return found
+        return motion_fit
     other = _equation(
         _log_of(test, screw).checked(keep_going=keep_going),
         cutoff=equation.cutoff,
         path_cutoff=equation.kinematics.cutoff,
         shift=equation.shift,
     )
-    crossed = {name: relative_error(found.force(name, other) - other.force, other.force) for name in errors}
-    return dataclasses.replace(found, cross_errors=crossed, test=other)
+    crossed = {name: relative_error(motion_fit.force(name, other) - other.force, other.force) for name in errors}
+    return dataclasses.replace(motion_fit, cross_errors=crossed, test=other)
 
 
 def _check_mass(name: str, linear: LinearModel) -> None:
@@ -331,21 +331,21 @@ def _filter_effects(equation: Equation) -> list[FilterEffect]:
     }
     if equation.shift:
         changes["dead time left in"] = {"shift": 0.0}
-    found: list[FilterEffect] = []
+    filter_effects: list[FilterEffect] = []
     for name, change in changes.items():
         again = Equation.of(equation.log, **{**own, **change})
         if again.used.size < PERIODS_PER_NUMBER * len(NAMES):  # that filter leaves nothing to fit to
             continue
         linear = linear_model(again)
-        found.append(FilterEffect(name, linear.values, linear.relative_error))
-    return found
+        filter_effects.append(FilterEffect(name, linear.values, linear.relative_error))
+    return filter_effects
 
 
 def _estimates(
     linear: LinearModel, power: PowerLaw | None, screw: ScrewModelFit | None, delay: DeadTime, carried: float | None
 ) -> dict[str, MotionEstimate]:
     errors, widths = linear.solution.errors, linear.solution.half_width()
-    found: dict[str, MotionEstimate] = {}
+    estimates: dict[str, MotionEstimate] = {}
 
     def add(name: str, model: str, value: float, std: float, half: float, **told: Any) -> None:
         quantity = told.pop("quantity", None) or QUANTITIES[name]
@@ -354,7 +354,7 @@ def _estimates(
         if known and told.pop("positive", False):
             low = max(low, 0.0)
         told.pop("positive", None)
-        found[name] = MotionEstimate(
+        estimates[name] = MotionEstimate(
             name, quantity, model, value, std if known else None, (low, high) if known else None, known, **told
         )
 
@@ -366,7 +366,7 @@ def _estimates(
     if power is not None:
         low, high = power.interval
         std = (power.bootstrap[1] - power.bootstrap[0]) / 4
-        found["speed_exponent"] = MotionEstimate(
+        estimates["speed_exponent"] = MotionEstimate(
             "speed_exponent",
             QUANTITIES["speed_exponent"],
             POWER,
@@ -393,14 +393,14 @@ def _estimates(
                 given=given,
                 positive=True,
             )
-    return found
+    return estimates
 
 
 def _remarks(power: PowerLaw | None) -> list[Record]:
-    found = [Record(text=_GRAVITY, id="fit.gravity_or_offset", subject="offset", holds=False)]
+    remarks = [Record(text=_GRAVITY, id="fit.gravity_or_offset", subject="offset", holds=False)]
     if power is None:
-        found.append(_warning("no_exponent", "speed_exponent", _NO_EXPONENT))
-    return found
+        remarks.append(_warning("no_exponent", "speed_exponent", _NO_EXPONENT))
+    return remarks
 
 
 def _is_off(screw: ScrewModelFit | None, linear: LinearModel) -> bool:
@@ -414,7 +414,7 @@ def _warning(name: str, subject: str, message: str) -> Record:
 
 def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) -> list[Record]:
     """Warnings about a screw's model that does not fit, or whose table is coarse."""
-    found: list[Record] = []
+    records: list[Record] = []
     if _is_off(screw, linear):
         preload = PRELOAD in screw.friction.subject.inputs and PRELOAD not in screw.friction.names
         remedy = f"--free {','.join([*free, PRELOAD])}" if preload else _OTHER_SIZE
@@ -424,12 +424,12 @@ def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) ->
             f"{units.percent(linear.relative_error, 1)} · the screw of the case has more friction than the whole "
             f"axis: try {remedy}"
         )
-        found.append(_warning("screw_model_off", "screw", message))
+        records.append(_warning("screw_model_off", "screw", message))
     if screw.table_error > _TABLE_ERROR:
         error = units.percent(screw.table_error, 1)
         text = f"the table of the screw's friction is off by up to {error} of the largest friction"
-        found.append(_warning("table_error", "screw", text))
-    return found
+        records.append(_warning("table_error", "screw", text))
+    return records
 
 
 def _unidentified(estimates: Mapping[str, MotionEstimate]) -> list[Record]:

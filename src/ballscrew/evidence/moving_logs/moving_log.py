@@ -141,9 +141,7 @@ class MovingLog:
 def quantities() -> Mapping[str, Quantity]:
     """The columns of a log: their units and bounds."""
     return {
-        name: found
-        for name, found in quantities_of(MovingLog).items()
-        if name in ("time", "force", "position", "speed")
+        name: each for name, each in quantities_of(MovingLog).items() if name in ("time", "force", "position", "speed")
     }
 
 
@@ -160,14 +158,14 @@ def _check_length(name: str, rows: int) -> None:
 def _missing(name: str, log: MovingLog, known: NDArray[np.bool_]) -> list[tuple[int, Fault]]:
     """Faults of runs of rows with missing values that are too long to fill in."""
     edges = np.flatnonzero(np.diff(np.concatenate([[True], known, [True]]).astype(np.int8)))
-    found: list[tuple[int, Fault]] = []
+    missing: list[tuple[int, Fault]] = []
     for begin, end in edges.reshape(-1, 2).tolist():
         if end - begin > FILLED:
             lacks = next(n for n, values in log.columns.items() if not np.isfinite(values[begin:end]).all())
             problem = f"has no {lacks} in {end - begin} rows one after the other"
             remedy = "cut the log there, or give --keep-going, which uses the longest stretch without a fault"
-            found.append((begin, Fault(f"{name} row {log.line[begin]}", problem, "", remedy)))
-    return found
+            missing.append((begin, Fault(f"{name} row {log.line[begin]}", problem, "", remedy)))
+    return missing
 
 
 def _breaks(name: str, log: MovingLog) -> list[tuple[int, Fault]]:
@@ -177,15 +175,15 @@ def _breaks(name: str, log: MovingLog) -> list[tuple[int, Fault]]:
         (_gaps, "a gap in time", "record without gaps, or cut the log there"),
         (_jumps, "position jumps", "a unit changes there or the encoder was reset: cut the log there"),
     )
-    found: list[tuple[int, Fault]] = []
+    breaks: list[tuple[int, Fault]] = []
     for test, problem, remedy in tests:
         for place in np.flatnonzero(test(log)).tolist():
             column = log.columns["time" if test is not _jumps else log.path_column]
             given = f"{column[place]:.6g} to {column[place + 1]:.6g}"
-            found.append((place, Fault(f"{name} row {log.line[place + 1]}", problem, given, remedy)))
-        if found:  # a jump beside a gap is the gap
+            breaks.append((place, Fault(f"{name} row {log.line[place + 1]}", problem, given, remedy)))
+        if breaks:  # a jump beside a gap is the gap
             break
-    return found
+    return breaks
 
 
 def _runs_back(log: MovingLog) -> NDArray[np.bool_]:

@@ -152,10 +152,10 @@ def _bootstrap(
     """
     sums = bootstrap_sums(_products(sides, force), solved.block, replicates, seed)
     try:
-        found = _lowest(_losses(sums))
+        lowest = _lowest(_losses(sums))
     except np.linalg.LinAlgError:
         return np.nan, np.nan
-    low, high = np.quantile(found, [0.025, 0.975]) - exponent
+    low, high = np.quantile(lowest, [0.025, 0.975]) - exponent
     wider = solved.few_blocks(len(LINEAR) + 2)
     return float(exponent + wider * low), float(exponent + wider * high)
 
@@ -170,9 +170,9 @@ def _choices(equation: Equation, sides: Floats) -> dict[str, float]:
         return name, _best(_sides(other), other.force, np.arange(other.used.size))
 
     largest = float(np.max(np.abs(equation.speed)))
-    found = [again(f"both sides at {f:g} × the cutoff", cutoff=f * equation.cutoff) for f in CUTOFF_FACTORS]
-    found += [again(f"position at {f:g} × the cutoff", path_cutoff=f * motion.cutoff) for f in CUTOFF_FACTORS]
-    found += [again(f"without speeds below {share:.0%}", slowest=share * largest) for share in SLOWEST_SHARES]
+    values = [again(f"both sides at {f:g} × the cutoff", cutoff=f * equation.cutoff) for f in CUTOFF_FACTORS]
+    values += [again(f"position at {f:g} × the cutoff", path_cutoff=f * motion.cutoff) for f in CUTOFF_FACTORS]
+    values += [again(f"without speeds below {share:.0%}", slowest=share * largest) for share in SLOWEST_SHARES]
     half = equation.used.size // 2
     direction = equation.direction[equation.used]
     parts = {
@@ -180,5 +180,5 @@ def _choices(equation: Equation, sides: Floats) -> dict[str, float]:
         "forward": np.flatnonzero(direction > 0), "backward": np.flatnonzero(direction < 0),
     }  # fmt: skip
     # in one direction the offset and the constant part are one column
-    found += [(name, _best(sides, force, rows, ONE_WAY if "ward" in name else LINEAR)) for name, rows in parts.items()]
-    return dict(found)
+    values += [(name, _best(sides, force, rows, ONE_WAY if "ward" in name else LINEAR)) for name, rows in parts.items()]
+    return dict(values)

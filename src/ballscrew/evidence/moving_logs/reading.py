@@ -72,26 +72,26 @@ def read_moving(
     try:
         begin = _first_bytes(path)
         if is_matlab(path, begin):
-            found, line, notes, own_gain = _of_matlab(path, begin, columns)
+            result, line, notes, own_gain = _of_matlab(path, begin, columns)
         else:
-            found, line, notes = _of_table(path, columns, keep_going, axis, period)
+            result, line, notes = _of_table(path, columns, keep_going, axis, period)
             own_gain = None
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise
         raise unreadable(path, error) from None
-    for name, values in found.items():
+    for name, values in result.items():
         values[~within_bounds(QUANTITIES[name].info, values)] = np.nan
-    raise_if_any(_empty(path.name, found))
+    raise_if_any(_empty(path.name, result))
     known = next(one for one in (gain, own_gain, usual_gain, math.nan) if one is not None)
-    in_amperes = in_amperes and torque_constant is None and next(name for name in FORCES if name in found) == "current"
-    force = found["current"] if in_amperes else _force(path.name, found, lead, torque_constant, known)
+    in_amperes = in_amperes and torque_constant is None and next(name for name in FORCES if name in result) == "current"
+    force = result["current"] if in_amperes else _force(path.name, result, lead, torque_constant, known)
     return MovingLog(
-        found["time"],
+        result["time"],
         force,
-        found.get("position"),
-        found.get("speed"),
+        result.get("position"),
+        result.get("speed"),
         line=line,
         notes=tuple(notes),
         source=(path.name, digest),
@@ -110,23 +110,23 @@ def is_moving(path: Path, columns: Mapping[str, str]) -> bool:
         return False
     try:
         begin = _first_bytes(path)
-        found = _matlab_records(variables(path, begin)[0]) if is_matlab(path, begin) else _top_of(path)
-        if is_matlab(path, begin) and is_emps(found[0].cells):
+        result = _matlab_records(variables(path, begin)[0]) if is_matlab(path, begin) else _top_of(path)
+        if is_matlab(path, begin) and is_emps(result[0].cells):
             return True
-        return has_columns(found, columns) and not _is_steady(path, found)
+        return has_columns(result, columns) and not _is_steady(path, result)
     except (InputError, OSError, ValueError):
         return False
 
 
-def _is_steady(path: Path, found: Sequence[Record]) -> bool:
+def _is_steady(path: Path, records: Sequence[Record]) -> bool:
     """Test whether a file has all the columns of a log of torques at steady speed, with or without their units.
 
     The load is among them: a file that could be of a moving axis is one of no load only if a person says so.
     """
-    if not any(torque_columns.is_load(cell) for record in found[: torque_columns.WITHIN] for cell in record.cells):
+    if not any(torque_columns.is_load(cell) for record in records[: torque_columns.WITHIN] for cell in record.cells):
         return False
     try:
-        torque_columns.layout(path, found, {})
+        torque_columns.layout(path, records, {})
     except InputError as error:
         return all(fault.id != NO_COLUMN for fault in error.faults)
     return True
@@ -159,14 +159,14 @@ def _of_matlab(
         notes.append("read as a record of the EMPS benchmark: t in s, qm in m, vir in V, gtau in N/V")
     place = moving_layout(path, _matlab_records(arrays), columns)
     every = list(arrays.values())
-    found = {name: h.offset + h.scale * every[h.place] for name, h in place.headings.items()}
-    sizes = {place.headings[name].written: values.size for name, values in found.items()}
+    result = {name: h.offset + h.scale * every[h.place] for name, h in place.headings.items()}
+    sizes = {place.headings[name].written: values.size for name, values in result.items()}
     if len(set(sizes.values())) > 1:
         listed = ", ".join(f"{name} {size}" for name, size in sizes.items())
         raise InputError(Fault(path.name, "has columns of different lengths", listed, "give every column each row"))
     notes += _of_unused(place)
     return (
-        found,
+        result,
         np.arange(1, 1 + next(iter(sizes.values()))),
         notes,
         numbers.get(EMPS_GAIN) if is_emps(list(arrays)) else None,
@@ -200,34 +200,34 @@ def _of_table(
     line = np.concatenate(lines) if lines else np.empty(0, dtype=np.int64)
     if not line.size:
         raise InputError(Fault(path.name, "has no rows below its headings", "", "give one row for each sample"))
-    found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    result = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     notes = [] if axis else _of_unused(place)
     if period is not None:
-        found["time"] = period * np.arange(line.size, dtype=float)
+        result["time"] = period * np.arange(line.size, dtype=float)
         notes.append(f"time: a row each {period:g} s, as given")
     if axis:
         notes.append(f"axis {axis}: units that headings do not have are mm, mm/s and A")
     if cells.bad_rows:
         notes.append(f"{cells.bad_rows} rows have cells that are no numbers: they count as missing")
-    return found, line, notes
+    return result, line, notes
 
 
 def _of_unused(place: Layout) -> list[str]:
     return [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
 
 
-def _empty(name: str, found: Mapping[str, Floats]) -> list[Fault]:
+def _empty(name: str, floats: Mapping[str, Floats]) -> list[Fault]:
     return [
         Fault(f"{name} column {column}", "has no number in any row", "", "give a column with numbers in it")
-        for column, values in found.items()
+        for column, values in floats.items()
         if not np.isfinite(values).any()
     ]
 
 
-def _force(name: str, found: _Numbers, lead: float, torque_constant: float | None, gain: float) -> Floats:
+def _force(name: str, result: _Numbers, lead: float, torque_constant: float | None, gain: float) -> Floats:
     """The force at the nut from the column that there is."""
-    column = next(one for one in FORCES if one in found)
-    values = found[column]
+    column = next(one for one in FORCES if one in result)
+    values = result[column]
     if column == "current" and torque_constant is None:
         raise InputError(
             Fault(f"{name} column {column}", "needs the torque constant", "", '--torque-constant "0.5 N m/A"')

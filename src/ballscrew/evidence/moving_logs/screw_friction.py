@@ -97,8 +97,8 @@ class ScrewFriction:
 
     def at(self, values: Floats, speed: Floats, load: Floats) -> Floats:
         """The friction force of the model itself, at speeds > 0 (m/s) and loads (N) against the motion."""
-        found = self._evaluator(load, speed * self.per_torque, *values)
-        return self.per_torque * np.asarray(found["screw_torque"], dtype=np.float64)
+        result = self._evaluator(load, speed * self.per_torque, *values)
+        return self.per_torque * np.asarray(result["screw_torque"], dtype=np.float64)
 
     def table(self, values: Floats) -> FrictionTable:
         """The friction force over speed and load for values of the free numbers."""

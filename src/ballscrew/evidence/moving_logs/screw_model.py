@@ -114,18 +114,18 @@ def fit_screw_model(
         xtol=1e-5,
         ftol=1e-7,
     )
-    found = _placed(begin, free, solved.x)
-    final, derivatives = problem.at(found)
-    near = (found - low <= _AT_BOUND + room) | (high - found <= _AT_BOUND + room)
+    result = _placed(begin, free, solved.x)
+    final, derivatives = problem.at(result)
+    near = (result - low <= _AT_BOUND + room) | (high - result <= _AT_BOUND + room)
     moves = free & ~near
-    told = LeastSquares(found[moves], final, derivatives[:, moves], block_length(final))
+    told = LeastSquares(result[moves], final, derivatives[:, moves], block_length(final))
     # a number matters by its own size, and a drag by that of the whole friction
-    matters = np.maximum(np.abs(found), np.where(np.arange(found.size) < 4, 1.0, 0.0))
-    errors, widths = np.full(found.size, np.nan), np.full(found.size, np.nan)
+    matters = np.maximum(np.abs(result), np.where(np.arange(result.size) < 4, 1.0, 0.0))
+    errors, widths = np.full(result.size, np.nan), np.full(result.size, np.nan)
     errors[moves], widths[moves] = told.errors, told.half_width()
     unknown = ~(errors <= LARGEST_ERROR * np.maximum(matters, 1e-300))
     errors[unknown], widths[unknown] = np.nan, np.nan
-    values = found * scales
+    values = result * scales
     numbers = values[4 : 4 + count]
     if not friction.table(numbers).is_finite:
         return None

@@ -93,7 +93,7 @@ def steady_friction(*logs: MovingLog) -> SteadyFriction:
 
 def _stretches(speed: Floats, force: Floats, slowest: float) -> list[tuple[float, float, int]]:
     """Mean speed, mean force and rows of each stretch at nearly constant speed; its first and last row do not count."""
-    found: list[tuple[float, float, int]] = []
+    stretches: list[tuple[float, float, int]] = []
     start = 0
     for row in range(1, speed.size + 1):
         mean = float(np.mean(speed[start:row]))
@@ -101,9 +101,9 @@ def _stretches(speed: Floats, force: Floats, slowest: float) -> list[tuple[float
             continue
         inner = slice(start + 1, row - 1)
         if row - start >= LEAST_ROWS and abs(mean) >= slowest and np.isfinite(force[inner]).all():
-            found.append((mean, float(np.mean(force[inner])), row - start - 2))
+            stretches.append((mean, float(np.mean(force[inner])), row - start - 2))
         start = row
-    return found
+    return stretches
 
 
 def _at_one_speed(near: Sequence[tuple[float, float, int]]) -> SteadySpeed | None:

@@ -88,11 +88,11 @@ def without_gaps(log: Log, names: Collection[str]) -> Log:
 
 def complete_rows(columns: Mapping[str, Floats], rows: int) -> NDArray[np.bool_]:
     """The rows without missing or impossible values; columns without any value do not count."""
-    found = np.ones(rows, dtype=bool)
+    result = np.ones(rows, dtype=bool)
     for name, values in columns.items():
         if np.isfinite(values).any():
-            found &= within_bounds(quantities()[name].info, values)
-    return found
+            result &= within_bounds(quantities()[name].info, values)
+    return result
 
 
 def without_repeats(log: Log) -> Log:
@@ -214,20 +214,20 @@ def describe_thinning(most: int) -> str:
 
 def data_warnings(log: LogRows) -> list[str]:
     """Warnings about effects that a log cannot identify."""
-    found: list[str] = []
+    names: list[str] = []
     if len(log) < FEW_ROWS:
-        found.append(f"{units.number(len(log))} rows are few: expect wide intervals, or none")
+        names.append(f"{units.number(len(log))} rows are few: expect wide intervals, or none")
     if _one_setting(np.abs(log.axial_load)):
-        found.append("one axial load only: what depends on the load cannot be told")
+        names.append("one axial load only: what depends on the load cannot be told")
     if _one_setting(np.abs(log.screw_speed)):
-        found.append("one speed only: what depends on the speed cannot be told")
+        names.append("one speed only: what depends on the speed cannot be told")
     if not (log.forward.any() and log.backward.any()):
-        found.append("one direction only: friction cannot be told from an offset of the torque")
+        names.append("one direction only: friction cannot be told from an offset of the torque")
     if log.temperature is None:
-        found.append("no temperature: the oil is taken to be as warm as in the case")
+        names.append("no temperature: the oil is taken to be as warm as in the case")
     elif float(np.ptp(log.temperature)) < 1.0:
-        found.append("one temperature only: what depends on the temperature cannot be told")
-    return found
+        names.append("one temperature only: what depends on the temperature cannot be told")
+    return names
 
 
 def _one_setting(values: Floats) -> bool:

@@ -169,7 +169,7 @@ def temperatures_among(unused: Sequence[str]) -> list[str]:
     """Of the columns that are not used, as :class:`Layout` lists them, those in a unit of temperature."""
     column = _BY_NAME[TEMPERATURE]
     parts = [(heading, BRACKETS.fullmatch(heading.strip('"'))) for heading in unused]
-    return [heading for heading, found in parts if found is not None and fits(found["unit"], column)]
+    return [heading for heading, each in parts if each is not None and fits(each["unit"], column)]
 
 
 def is_heading(cell: str) -> bool:
@@ -183,13 +183,13 @@ def is_load(cell: Any) -> bool:
     return heading is not None and heading.column.name == LOAD
 
 
-def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
+def layout(path: Path, records: Sequence[Record], flags: Mapping[str, str]) -> Layout:
     """The layout of a file, from its first rows and the columns given by the user, by name.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
     given = _given_columns(flags)
-    rows, constants, named = _renamed(found, given)
+    rows, constants, named = _renamed(records, given)
     columns = _wanted(given)
     start, headings = headings_in(path, rows, columns, WITHIN)
     columns, headings = _chosen(columns, headings, constants)
@@ -208,18 +208,18 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
-        there = headings_of(found[start])
+        there = headings_of(records[start])
         raise InputError(
             *(with_option(fault, headings, _BY_NAME, there, constants=True) for fault in error.faults)
         ) from None
-    rest = unused(found[start], good, body[:WITHIN])
-    above = [found[start], found[start + 1]] if units_below else [found[start]]
+    rest = unused(records[start], good, body[:WITHIN])
+    above = [records[start], records[start + 1]] if units_below else [records[start]]
     return Layout(
         path.name,
         {heading.column.name: heading for heading in good},
         constants,
         above[-1].line,
-        len(found[start].cells),
+        len(records[start].cells),
         decimals.evidence(texts_in(good, body)),
         dates,
         rest,
@@ -243,7 +243,7 @@ class _GivenColumn:
 
 def _given_columns(flags: Mapping[str, str]) -> list[_GivenColumn]:
     faults: list[Fault] = []
-    found: list[_GivenColumn] = []
+    result: list[_GivenColumn] = []
     for name, text in flags.items():
         column = _BY_NAME.get(name) or next((column for column in COLUMNS if column.answers_to(name)), None)
         if column is None:
@@ -257,35 +257,35 @@ def _given_columns(flags: Mapping[str, str]) -> list[_GivenColumn]:
             fault = units.parse(f"--column {name}", f"1 {unit}", column.quantity)
             if isinstance(fault, Fault):
                 faults.append(dataclasses.replace(fault, given=written))
-        found.append(_GivenColumn(column, written, parts["name"] if parts else written, unit))
+        result.append(_GivenColumn(column, written, parts["name"] if parts else written, unit))
     raise_if_any(faults)
-    return found
+    return result
 
 
 def _renamed(
-    found: Sequence[Record], given: Sequence[_GivenColumn]
+    records: Sequence[Record], given: Sequence[_GivenColumn]
 ) -> tuple[list[Record], dict[str, float], dict[tuple[int, int], str]]:
     """Rows with the given columns under their standard names, the constants, and the cells as written."""
-    rows = list(found)
+    rows = list(records)
     constants: dict[str, float] = {}
     written: dict[tuple[int, int], str] = {}
     for one in given:
         ours = dataclasses.replace(one.column, name=one.name, aliases=(), hints=())
         places = [
             (number, place, heading)
-            for number, record in enumerate(found[:WITHIN])
+            for number, record in enumerate(records[:WITHIN])
             for place, cell in enumerate(record.cells)
             if isinstance(cell, str) and cell
             for heading in [heading_of(cell, place, (ours,))]
             if heading is not None or bare(cell) in {bare(one.written), bare(one.name)}
         ]
         if not places:
-            constants[one.column.name] = _constant(one, found)
+            constants[one.column.name] = _constant(one, records)
             continue
         # "T" is rather "T" than "t"
-        number, place, heading = min(places, key=lambda found: _match_rank(one, str(rows[found[0]].cells[found[1]])))
+        number, place, heading = min(places, key=lambda result: _match_rank(one, str(rows[result[0]].cells[result[1]])))
         unit = one.unit or (heading.unit if heading else "")
-        written[number, place] = str(found[number].cells[place])
+        written[number, place] = str(records[number].cells[place])
         name = one.column.name.replace("_", " ")
         cells = [_without_column(one.column, cell) for cell in rows[number].cells]
         cells[place] = f"{name} [{unit}]" if unit else name
@@ -301,10 +301,10 @@ def _has_no_load(
         return False
     taken = {heading.place for heading in headings}
     given = [BRACKETS.fullmatch(str(cell).strip()) for cell in cells.cells]
-    found = [match["unit"] if match else "" for match in given]
+    values = [match["unit"] if match else "" for match in given]
     if units_below is not None:
-        found = [unit or _bracketed(cell) for unit, cell in zip(found, units_below.cells, strict=False)]
-    return not any(unit and fits(spelt(unit), _BY_NAME[LOAD]) for n, unit in enumerate(found) if n not in taken)
+        values = [unit or _bracketed(cell) for unit, cell in zip(values, units_below.cells, strict=False)]
+    return not any(unit and fits(spelt(unit), _BY_NAME[LOAD]) for n, unit in enumerate(values) if n not in taken)
 
 
 def _match_rank(one: _GivenColumn, cell: str) -> int:
@@ -319,7 +319,7 @@ def _without_column(column: Column, cell: Any) -> Any:
     return "" if heading is not None and heading.column is column else cell
 
 
-def _constant(one: _GivenColumn, found: Sequence[Record]) -> float:
+def _constant(one: _GivenColumn, records: Sequence[Record]) -> float:
     quantity = one.column.quantity
     assert quantity is not None
     where = f"--column {one.column.name}"
@@ -328,7 +328,7 @@ def _constant(one: _GivenColumn, found: Sequence[Record]) -> float:
         if isinstance(value, Fault):
             raise InputError(value)
         return value
-    headings = headings_of(likely_headings(found[:WITHIN], COLUMNS))
+    headings = headings_of(likely_headings(records[:WITHIN], COLUMNS))
     raise InputError(Fault(where, "is not a column of the file", one.written, nearest(one.name, headings)))
 
 

@@ -134,7 +134,7 @@ class LogRows:
 @functools.cache
 def quantities() -> Mapping[str, Quantity]:
     """The columns of a log: their units and bounds."""
-    return {name: found for name, found in quantities_of(LogRows).items() if name in (*REQUIRED, *OPTIONAL)}
+    return {name: each for name, each in quantities_of(LogRows).items() if name in (*REQUIRED, *OPTIONAL)}
 
 
 def seconds(dates: NDArray[Any]) -> Floats:

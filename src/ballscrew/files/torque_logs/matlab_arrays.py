@@ -19,17 +19,17 @@ def columns(path: str, hdf5: bool) -> tuple[list[str], dict[str, NDArray[np.floa
 
     Raises whatever the libraries raise for files that cannot be read.
     """
-    found = _read_hdf5(path) if hdf5 else _read_mat5(path)
-    if len(found) == 1 and isinstance(only := next(iter(found.values())), Mapping):
-        found = {name: np.asarray(one) if isinstance(one, int | float) else one for name, one in only.items()}
+    result = _read_hdf5(path) if hdf5 else _read_mat5(path)
+    if len(result) == 1 and isinstance(only := next(iter(result.values())), Mapping):
+        result = {name: np.asarray(one) if isinstance(one, int | float) else one for name, one in only.items()}
     arrays = {
-        name: np.atleast_1d(np.squeeze(values)) for name, values in found.items() if isinstance(values, np.ndarray)
+        name: np.atleast_1d(np.squeeze(values)) for name, values in result.items() if isinstance(values, np.ndarray)
     }
     arrays = {name: values for name, values in arrays.items() if values.ndim == 1 and values.dtype.kind in "fiub"}
     longest = max((values.size for values in arrays.values()), default=0)
     kept = {name: values for name, values in arrays.items() if values.size > (longest > 1)}
     numbers = {name: float(values[0]) for name, values in arrays.items() if name not in kept and values.size == 1}
-    return list(found), {name: np.asarray(values, np.float64) for name, values in kept.items()}, numbers
+    return list(result), {name: np.asarray(values, np.float64) for name, values in kept.items()}, numbers
 
 
 def _read_mat5(path: str) -> dict[str, Any]:

@@ -96,8 +96,8 @@ def motion_of(time: Floats, speed: Floats) -> Motion:
     t = time[first]
     w = np.add.reduceat(speed, first) / np.diff(np.append(first, time.size))
     left, right = _room(t)
-    found = [_differences(t, w, left, right, scale) for scale in SCALES]
-    slope, span = np.stack([one[0] for one in found]), np.stack([one[1] for one in found])
+    differences = [_differences(t, w, left, right, scale) for scale in SCALES]
+    slope, span = np.stack([one[0] for one in differences]), np.stack([one[1] for one in differences])
     _one_sided(t, w, left, right, slope[0], span[0])
     motion = Motion(slope, span, _bend(t, w, left, right))
     return motion if first.size == time.size else motion.select(np.cumsum(new) - 1)

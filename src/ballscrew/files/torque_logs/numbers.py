@@ -46,7 +46,7 @@ class NumberReader:
 
         Of a row ``at_end`` of a file that stops short, faults do not count: it was being written.
         """
-        found: dict[str, Floats] = {}
+        floats: dict[str, Floats] = {}
         bad = np.zeros(line.size, dtype=bool)
         words = np.ones(line.size, dtype=bool)
         faults: list[tuple[int, Fault]] = []
@@ -63,7 +63,7 @@ class NumberReader:
             is_word = np.zeros(line.size, dtype=bool)
             is_word[wrong[texts]] = True
             words &= is_word
-            found[name] = values
+            floats[name] = values
             faults += self._one_by_one(name, cells, wrong[~texts], line, values)
             faults += self._of_words(name, cells, wrong[texts], line)
         faults = [(place, fault) for place, fault in faults if not words[place]]
@@ -72,8 +72,8 @@ class NumberReader:
         bad[[place for place, _ in faults]] = True
         self._keep(faults)
         self.bad_rows += int(bad.sum())
-        empty = np.all([np.isnan(values) for values in found.values()], axis=0)
-        return found, ~(bad | empty)
+        empty = np.all([np.isnan(values) for values in floats.values()], axis=0)
+        return floats, ~(bad | empty)
 
     def _keep(self, faults: list[tuple[int, Fault]]) -> None:
         ordered = sorted(faults, key=lambda placed: placed[0])
@@ -125,13 +125,13 @@ class NumberReader:
         given = texts.notna().to_numpy()
         texts = texts.str.replace(",", ".", regex=False)
         if self.layout.dates == CLOCK:
-            found = pd.to_timedelta(texts, errors="coerce").to_numpy(dtype="timedelta64[ns]")
+            result = pd.to_timedelta(texts, errors="coerce").to_numpy(dtype="timedelta64[ns]")
         else:
             dates = pd.to_datetime(texts, format=self.layout.dates, errors="coerce", utc=True)
-            found = dates.dt.tz_localize(None).to_numpy(dtype="datetime64[ns]")
-        wrong = np.flatnonzero(given & np.isnat(found))
-        if self._origin is None and not np.isnat(found).all():
-            self._origin = found[~np.isnat(found)][:1]
+            result = dates.dt.tz_localize(None).to_numpy(dtype="datetime64[ns]")
+        wrong = np.flatnonzero(given & np.isnat(result))
+        if self._origin is None and not np.isnat(result).all():
+            self._origin = result[~np.isnat(result)][:1]
         if self._origin is None:
-            return np.full(found.shape, np.nan), wrong
-        return seconds(np.concatenate([self._origin, found]))[1:], wrong
+            return np.full(result.shape, np.nan), wrong
+        return seconds(np.concatenate([self._origin, result]))[1:], wrong

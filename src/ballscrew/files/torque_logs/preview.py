@@ -53,21 +53,21 @@ def preview(path: Path, columns: Mapping[str, str] | None = None) -> Preview:
     path, columns = Path(path), columns or {}
     try:
         with path.open("rb") as file:
-            found = source_of(path, file, None).found
+            result = source_of(path, file, None).found
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise
         raise unreadable(path, error) from None
-    if not found:
+    if not result:
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
     try:
-        place = layout(path, found, columns)
+        place = layout(path, result, columns)
     except InputError as error:
-        start = _headings_row(found, columns)
-        return _preview(path, found, start, _recognised(found[start], columns), {}, error.faults)
+        start = _headings_row(result, columns)
+        return _preview(path, result, start, _recognised(result[start], columns), {}, error.faults)
     seen = {heading.place: heading for heading in place.headings.values()}
-    start = next(n for n, record in enumerate(found) if _has(record, seen))
-    return _preview(path, found, start, seen, place.constants, ())
+    start = next(n for n, record in enumerate(result) if _has(record, seen))
+    return _preview(path, result, start, seen, place.constants, ())
 
 
 def _has(record: Record, headings: Mapping[int, Heading]) -> bool:
@@ -80,9 +80,9 @@ def _text(cell: object) -> str:
     return " ".join(str(cell).split())
 
 
-def _headings_row(found: Sequence[Record], columns: Mapping[str, str]) -> int:
+def _headings_row(records: Sequence[Record], columns: Mapping[str, str]) -> int:
     """The row near the top with most headings that are known or given by hand, or else the first one."""
-    counts = [len(_recognised(record, columns)) for record in found[:WITHIN]]
+    counts = [len(_recognised(record, columns)) for record in records[:WITHIN]]
     return counts.index(max(counts))
 
 
@@ -90,14 +90,14 @@ def _recognised(record: Record, columns: Mapping[str, str]) -> dict[int, Heading
     """The headings of a row by their places; those given by hand count for what they are given as."""
     by_name = {column.name: column for column in COLUMNS}
     given = {bare(_without_unit(text)): by_name[name] for name, text in columns.items() if name in by_name}
-    found: dict[int, Heading] = {}
+    headings: dict[int, Heading] = {}
     for place, cell in enumerate(record.cells[:MOST_COLUMNS]):
         heading = known_heading_of(cell, place, COLUMNS)
         if isinstance(cell, str) and (column := given.get(bare(_without_unit(cell)))) is not None:
-            found[place] = Heading(cell, column, place, heading.unit if heading else "")
+            headings[place] = Heading(cell, column, place, heading.unit if heading else "")
         elif heading is not None and heading.column.name not in columns:
-            found[place] = heading
-    return found
+            headings[place] = heading
+    return headings
 
 
 def _without_unit(text: str) -> str:
@@ -107,13 +107,13 @@ def _without_unit(text: str) -> str:
 
 def _preview(
     path: Path,
-    found: Sequence[Record],
+    records: Sequence[Record],
     start: int,
     seen: Mapping[int, Heading],
     constants: Mapping[str, float],
     faults: Sequence[Fault],
 ) -> Preview:
-    cells, below = found[start].cells, found[start + 1 : start + 1 + ROWS]
+    cells, below = records[start].cells, records[start + 1 : start + 1 + ROWS]
     listed = tuple(
         SeenColumn(
             heading=_text(cell)[:LETTERS],

@@ -188,13 +188,13 @@ def _named(
 ) -> dict[str, NDArray[Any]]:
     """The columns of a log from those of a file; a feed rate or a position in place of the speed stays."""
     constants = {name: np.full(rows, value) for name, value in place.constants.items()}
-    found = {**constants, **values}
-    if "current" in found and torque_constant is not None:
-        found["torque"] = torque_constant * found.pop("current")
+    result = {**constants, **values}
+    if "current" in result and torque_constant is not None:
+        result["torque"] = torque_constant * result.pop("current")
     for name in TORQUES:
-        if name in found:
-            found["torque"] = found.pop(name)
-    return found
+        if name in result:
+            result["torque"] = result.pop(name)
+    return result
 
 
 def _lacks(named: Mapping[str, Floats], row: int) -> bool:

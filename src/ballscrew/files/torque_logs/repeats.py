@@ -34,12 +34,12 @@ def repeated_rows(columns: Sequence[Floats], time: Floats | None = None) -> NDAr
     keys = _hashed(np.stack([np.asarray(values, dtype=np.float64) for values in columns], axis=1))
     _, number, counts = np.unique(keys, return_inverse=True, return_counts=True)
     alike = float(np.sum((counts / keys.size) ** 2))
-    found = np.zeros(keys.size, dtype=bool)
+    result = np.zeros(keys.size, dtype=bool)
     if counts.size < DISTINCT_ROWS or counts.max() == 1:
-        return found
+        return result
     length = max(DISTINCT_ROWS, math.ceil(math.log(keys.size**2 / CHANCE) / -math.log(alike)))
     if 2 * length > keys.size:
-        return found
+        return result
     windows = np.zeros(keys.size - length + 1, dtype=np.uint64)
     for place, factor in enumerate(_factors(length)):
         windows += factor * keys[place : place + windows.size]
@@ -47,7 +47,7 @@ def repeated_rows(columns: Sequence[Floats], time: Floats | None = None) -> NDAr
     earlier = first[same.reshape(-1)]
     begins = np.flatnonzero(earlier + length <= np.arange(windows.size))
     if not begins.size:
-        return found
+        return result
     # windows one after the other, all as far behind what they repeat
     breaks = (np.diff(begins) != 1) | (np.diff(begins - earlier[begins]) != 0)
     sequences = [(part[0], part[-1] + length, part.size) for part in np.split(begins, np.flatnonzero(breaks) + 1)]
@@ -59,8 +59,8 @@ def repeated_rows(columns: Sequence[Floats], time: Floats | None = None) -> NDAr
         steps_back = time is not None and begin > 0 and time[begin] < time[begin - 1]
         distinct = np.unique(number.reshape(-1)[begin:end]).size
         if (steps_back or size >= least) and distinct >= DISTINCT_ROWS:
-            found[begin:end] = True
-    return found
+            result[begin:end] = True
+    return result
 
 
 def _hashed(table: Floats) -> NDArray[np.uint64]:

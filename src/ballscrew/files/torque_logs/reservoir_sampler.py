@@ -93,13 +93,13 @@ class ReservoirSampler:
         if self._pending is not None:
             self._settle(self._pending.select(slice(None)), last=True)
             self._pending = None
-        found = _joined(self._parts)
+        result = _joined(self._parts)
         notes: list[str] = []
         if self._spilled:
-            found = self._thinned(found)
-        columns: dict[str, Any] = dict(found.columns)
+            result = self._thinned(result)
+        columns: dict[str, Any] = dict(result.columns)
         line, keys = columns.pop("line"), columns.pop("key")
-        motion = found.motion
+        motion = result.motion
         if self._out_of_order or (self._runs > 1 and self.rows < SHORTEST_RUN * self._runs):
             notes.append(
                 f"rows are not in the order of time, and too many to sort (over {units.number(self._held)}): sort "

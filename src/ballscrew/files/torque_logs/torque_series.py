@@ -154,16 +154,16 @@ def _of_arrays(data: Any) -> TorqueSeries:
     names = [str(name) for name in data]
     unknown = [name for name in names if name not in _NAMES]
     raise_if_any([Fault("series", "has a column that is not known", n, f"known: {', '.join(_NAMES)}") for n in unknown])
-    found: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     faults: list[Fault] = []
     per, labels = "test", ()
     for name in names:
         if name == "nut":
-            found["nuts"] = tuple(map(str, data[name]))
+            result["nuts"] = tuple(map(str, data[name]))
             continue
         values = np.asarray(data[name])
         if name == "time" and values.dtype.kind == "M":
-            found["time"] = (values - values[0]) / np.timedelta64(1, "s")
+            result["time"] = (values - values[0]) / np.timedelta64(1, "s")
             per, labels = "s", tuple(str(one) for one in values.astype("datetime64[D]"))
             continue
         unit = {"time": "s", "number": "1", "temperature": "K", "screw_speed": "rad/s"}.get(name, "N m")
@@ -176,24 +176,24 @@ def _of_arrays(data: Any) -> TorqueSeries:
         except (TypeError, ValueError):
             faults.append(Fault(f"series.{name}", "must be an array of numbers", "", "give a numpy.array of floats"))
             continue
-        found["time" if name == "number" else name] = made
+        result["time" if name == "number" else name] = made
         if name in ("time", "number"):
             per = "s" if name == "time" else "test"
             labels = tuple(f"{one:g}{' s' if name == 'time' else ''}" for one in made.tolist())
     raise_if_any(faults)
-    return TorqueSeries(**_one_torque(found, "series"), per=per, labels=labels)
+    return TorqueSeries(**_one_torque(result, "series"), per=per, labels=labels)
 
 
-def _one_torque(found: dict[str, Any], where: str) -> dict[str, Any]:
+def _one_torque(values: dict[str, Any], where: str) -> dict[str, Any]:
     """The columns with one torque: friction is the mean of both directions, in which the load goes out."""
-    pair = [name for name in ("torque_forward", "torque_backward") if name in found]
-    if ("torque" in found) == bool(pair) or len(pair) == 1:
-        problem = "has two kinds of torques" if "torque" in found else "has no torque of both directions"
+    pair = [name for name in ("torque_forward", "torque_backward") if name in values]
+    if ("torque" in values) == bool(pair) or len(pair) == 1:
+        problem = "has two kinds of torques" if "torque" in values else "has no torque of both directions"
         raise InputError(Fault(where, problem, ", ".join(pair), "give torque, or torque_forward and torque_backward"))
     if not pair:
-        return found
-    forward, backward = (np.abs(np.asarray(found.pop(name))) for name in pair)
-    return {**found, "torque": (forward + backward) / 2}
+        return values
+    forward, backward = (np.abs(np.asarray(values.pop(name))) for name in pair)
+    return {**values, "torque": (forward + backward) / 2}
 
 
 # -- tables ---------------------------------------------------------------------------------------
@@ -235,15 +235,15 @@ def read(path: Path, columns: Mapping[str, str] | None = None, keep_going: bool 
     table = tables.read(path, _columns(columns or {}))
     if "screw_speed" in table.headings and any(row.values.get("screw_speed", 1.0) <= 0 for row in table.rows):
         _refuse_log(path)
-    found, notes = tables.made(table, lambda row: row, keep_going)
-    lines = [row.line for row in found]
+    result, notes = tables.made(table, lambda row: row, keep_going)
+    lines = [row.line for row in result]
     values: dict[str, Any] = {}
     for name in ("torque", "torque_forward", "torque_backward", "temperature", "screw_speed"):
         if name in table.headings:
-            values[name] = np.array([row.values.get(name, math.nan) for row in found])
+            values[name] = np.array([row.values.get(name, math.nan) for row in result])
     values = _one_torque(values, path.name)
-    per, time, labels = _times(table, found)
-    nuts = [str(row.values.get("nut", "")) for row in found] if "nut" in table.headings else []
+    per, time, labels = _times(table, result)
+    nuts = [str(row.values.get("nut", "")) for row in result] if "nut" in table.headings else []
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
     return TorqueSeries(
         **values,
@@ -262,28 +262,28 @@ def _refuse_log(path: Path) -> None:
     raise InputError(Fault(path.name, "has speeds in both directions or at rest, as a log has", "", remedy))
 
 
-def _times(table: tables.Table, found: Sequence[tables.Row]) -> tuple[str, Any, Sequence[str]]:
+def _times(table: tables.Table, rows: Sequence[tables.Row]) -> tuple[str, Any, Sequence[str]]:
     """What times count, the times and how they are written."""
     name = next((one for one in ("date", "time", "number") if one in table.headings), None)
     if name is None:
         return "test", None, ()
-    absent = [row for row in found if name not in row.values]
+    absent = [row for row in rows if name not in row.values]
     raise_if_any([Fault(table.where(row.line, name), "is empty", "", "give each test its time") for row in absent])
-    written = [row.written[name] for row in found]
+    written = [row.written[name] for row in rows]
     if name == "date":
-        return "s", _seconds(table, found), written
+        return "s", _seconds(table, rows), written
     unit = table.headings[name].unit
     labels = [f"{text} {unit}" if unit and name == "time" else text for text in written]
-    return "s" if name == "time" else "test", np.array([float(row.values[name]) for row in found]), labels
+    return "s" if name == "time" else "test", np.array([float(row.values[name]) for row in rows]), labels
 
 
-def _seconds(table: tables.Table, found: Sequence[tables.Row]) -> Floats:
+def _seconds(table: tables.Table, rows: Sequence[tables.Row]) -> Floats:
     """The dates of tests in seconds from the first. Raises :class:`~ballscrew.basis.errors.InputError`."""
-    dates = [_date(str(row.values["date"])) for row in found]
+    dates = [_date(str(row.values["date"])) for row in rows]
     raise_if_any(
         [
             Fault(table.where(row.line, "date"), "is no date that is known", row.written["date"], "write 2026-03-31")
-            for row, date in zip(found, dates, strict=True)
+            for row, date in zip(rows, dates, strict=True)
             if date is None
         ]
     )

@@ -230,8 +230,8 @@ def _ball(row: CatalogueRow) -> tuple[Estimate, list[Record]]:
         return rule, []
     # of spacers and balls by turns, half carry, with the power of 2/3 of the rating
     of_all = rating * 2 ** (2 / 3) if row.spacer_balls else rating
-    found = ball_of_rating(of_all, row.ball_circle, row.lead, row.contact_angle, row.loaded_turns)
-    ball = round(found, _WHOLE_MICROMETRES)
+    result = ball_of_rating(of_all, row.ball_circle, row.lead, row.contact_angle, row.loaded_turns)
+    ball = round(result, _WHOLE_MICROMETRES)
     low, high = (share * row.nominal_diameter for share in BALLS_PER_DIAMETER)
     if low <= ball <= min(high, BALLS_PER_PITCH * pitch):
         band = SMALL_BAND if ball < SMALL_BALL else RATED_BAND
@@ -260,12 +260,12 @@ def _within(name: str, value: float, band: tuple[float, float], source: str) -> 
 def odd_ratings(listed: Mapping[str, float], computed: Ratings) -> list[Record]:
     """Warnings of load ratings, as they are listed, that do not go with those by the geometry or with each other."""
     dynamic, static = (listed.get(name) for name in RATED)
-    found = [
+    records = [
         *_odd_rating("dynamic_load_rating", dynamic, computed.dynamic, RATING_RATIOS),
         *_odd_rating("static_load_rating", static, computed.static, STATIC_RATIOS),
     ]
-    if dynamic is None or static is None or static >= dynamic or found:
-        return found
+    if dynamic is None or static is None or static >= dynamic or records:
+        return records
     message = (
         f"static_load_rating {units.shown(static, QUANTITIES['static_load_rating'])} is below the dynamic one, "
         f"{units.shown(dynamic, QUANTITIES['dynamic_load_rating'])}: rows of catalogues have 1.2 to 4.4 times it; "
@@ -340,8 +340,8 @@ def _conformity(row: CatalogueRow, *, is_listed: bool) -> tuple[Estimate, list[R
     for _ in range(40):
         middle = (low + high) / 2
         low, high = (middle, high) if _bottom(row, middle) > row.root_diameter else (low, middle)
-    found = round(low, _DIGITS)
-    return Estimate("conformity", found, found - CONFORMITY_DOUBT, found + CONFORMITY_DOUBT, BY_ROOT), []
+    result = round(low, _DIGITS)
+    return Estimate("conformity", result, result - CONFORMITY_DOUBT, result + CONFORMITY_DOUBT, BY_ROOT), []
 
 
 def _bottom(row: CatalogueRow, conformity: Ratio) -> Length:
