@@ -169,8 +169,8 @@ def model(request: pytest.FixtureRequest) -> bs.FrictionModel:
 
 @pytest.hookimpl(wrapper=True, optionalhook=True)  # only with pytest-xdist
 def pytest_xdist_auto_num_workers():
-    """Two workers more than processors: tests that wait for a browser or a process leave their own to others."""
-    return (yield) + (0 if "PYTEST_XDIST_AUTO_NUM_WORKERS" in os.environ else 2)
+    """One worker more than processors: tests that wait for a browser or a process leave their own to others."""
+    return (yield) + (0 if "PYTEST_XDIST_AUTO_NUM_WORKERS" in os.environ else 1)
 
 
 def pytest_collection_finish():

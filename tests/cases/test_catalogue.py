@@ -256,6 +256,7 @@ Größe 1;40;20;6,35;4;50,3;70;45;0,52;Double;2
 """
 
 
+@pytest.mark.slow
 def test_rows_of_ones_own(ballscrew, tmp_path):
     (tmp_path / "own.csv").write_text(OWN, encoding="cp1252")
     process = ballscrew("catalogue", "list", "--rows", "own.csv")

@@ -52,6 +52,7 @@ def faults(text, *settings, moves=True, model=None):
     return str(refused.value)
 
 
+@pytest.mark.slow
 def test_the_loads_of_the_balls_are_solved_once_for_a_cycle(monkeypatch):
     """Speeds, oils and the fall under the weight alone do not change them: what a duty costs is its friction."""
     solved, calls = load_distribution.solved, []

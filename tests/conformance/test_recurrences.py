@@ -66,6 +66,7 @@ def exact_ellipticity(radii_ratio, start):
     return mpmath.exp(mpmath.findroot(residual, (guess * (1 - mpmath.mpf("1e-3")), guess * (1 + mpmath.mpf("1e-3")))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("lowest", "highest"), [(1e-5, 1e-2), (1e-2, 0.97), (1.03, 1e2), (1e2, 1e5)])
 def test_ellipticity(lowest, highest):
     with mpmath.workdps(DIGITS):

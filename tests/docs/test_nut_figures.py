@@ -39,6 +39,7 @@ def test_two_runs_give_the_same_bytes(tmp_path):
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
 
 
+@pytest.mark.slow
 def test_the_curves_say_what_the_page_says():
     """Balls at the loaded end carry most; halves lift off near 2^1.5 preloads; four contacts cost more."""
     data = curves.distribution_curves()

@@ -97,6 +97,7 @@ def test_nothing_is_left_to_a_build(page):
     assert "-->\n<!-- end -->" not in text, "a text is missing: make pages"
 
 
+@pytest.mark.slow
 def test_commands_print_what_their_page_says(apart):
     assert apart.put([OF_COMMANDS], write=False) == ([], [])
 

@@ -167,6 +167,7 @@ def test_each_description_begins_with_its_encoding(file):
         assert re.fullmatch(r"""<\?xml version=(["'])1\.0\1 encoding=(["'])UTF-8\2\?>""", first), first
 
 
+@pytest.mark.slow
 @needs_a_compiler
 def test_its_sources_make_its_library(file, version, tmp_path):
     """Those that the description names, and nothing else."""

@@ -166,6 +166,7 @@ def test_it_holds_and_does_not_creep_and_slips_beyond(folder, axis, subject):
     assert places[1.1][1] < 2 * places[1.1][0] < -2e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["axis_plugin.xml", "axis_parameters.xml"])
 @pytest.mark.parametrize(
     ("inclination", "counterweight"), [("90 deg", "0 kg"), ("30 deg", "0 kg"), ("-45 deg", "200 kg")]

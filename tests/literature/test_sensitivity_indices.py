@@ -80,6 +80,7 @@ def test_indices_are_those_of_the_closed_form(samples, most, function):
     assert widest < 9 / math.sqrt(samples)
 
 
+@pytest.mark.slow
 def test_many_samples_give_three_digits(function):
     found = sobol_indices(function, inputs_of(function), 2**16)
     for exact, estimates in ((function.first_order, found.first_order), (function.total, found.total)):

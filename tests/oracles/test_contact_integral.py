@@ -272,6 +272,7 @@ def test_films_know_the_speed():
     assert torques[0] < torques[1] < torques[2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 @pytest.mark.parametrize("pairs", [1, 2])
 def test_the_grid_is_fine_enough(law, pairs):

@@ -79,6 +79,7 @@ def axes(draw):
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(axes(), motions(), MECHANICS)
 def test_energy_of_a_cycle(axis, motion, mechanics):

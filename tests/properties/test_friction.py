@@ -5,6 +5,7 @@ import math
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -97,6 +98,7 @@ def over_the_ellipse(integrand, Y):
     return total
 
 
+@pytest.mark.slow
 @given(fitting_cases(), both_models, floats(0.0, 0.999))
 def test_closed_form_is_the_integral(case, model, Y):
     """(15) is friction times pressure times height over the ellipse, (14); so is the traction that goes with it."""
@@ -155,6 +157,7 @@ def test_torque_rises_with_the_force_between_balls(case, model, force, more):
     assert greater.screw_torque > less.screw_torque
 
 
+@pytest.mark.slow
 @given(fitting_cases(), both_models, floats(0.05, 0.4), floats(1.01, 2.0))
 def test_torque_rises_with_boundary_friction(case, model, mu_0, factor):
     """M_S rises with µ0 where asperities rub, and never falls while the balls roll."""
@@ -168,6 +171,7 @@ def test_torque_rises_with_boundary_friction(case, model, mu_0, factor):
         assert greater.screw_torque > less.screw_torque
 
 
+@pytest.mark.slow
 @given(fitting_cases(), both_models, floats(1.01, 3.0))
 def test_torque_rises_with_roughness(case, model, factor):
     """M_S rises with the roughness where asperities rub, and never falls while the balls roll."""

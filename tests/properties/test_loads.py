@@ -68,6 +68,7 @@ def test_everything_is_a_number(drawn):
         assert np.all(np.isfinite(getattr(r, name))), name
 
 
+@pytest.mark.slow
 def test_balls_are_pressed_and_never_pulled(drawn):
     case, r = drawn
     size = case.load + case.preload

@@ -57,6 +57,7 @@ def test_load_and_speed_reversed_reverse_the_torque(kind, name):
     assert np.isfinite(there.screw_torque).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_power_in_is_power_out_and_lost(kind):
     """Of the shaft, the load and the contacts, in each quadrant, over random nuts of the reference model."""

@@ -95,6 +95,7 @@ def test_ratings_of_a_geometry(spacer_balls):
     assert type(ratings_of(ROW).dynamic) is float
 
 
+@pytest.mark.slow
 @pytest.mark.implausible
 @pytest.mark.parametrize("ends", [Ends.FIXED_FIXED, Ends.FIXED_FREE])
 @pytest.mark.parametrize("preload", [None, 900.0])

@@ -110,6 +110,7 @@ def test_units(case, model, length, force, time):
         assert close(there.sliding_force, here.sliding_force * force, 1e-11, scale=2 * r.screw.tangential_force * force)
 
 
+@pytest.mark.slow
 @given(cases, all_models, st.integers(2, 7))
 def test_balls_add_up(case, model, factor):
     """Torque is additive in the balls: twice the balls under twice the load have twice the torque."""
@@ -121,6 +122,7 @@ def test_balls_add_up(case, model, factor):
     assert close(more.nut_torque, factor * r.nut_torque, scale=factor * torque_scale(r))
 
 
+@pytest.mark.slow
 @given(moving_cases, both_models, powers(0.02, 50))
 def test_viscosity_and_speed_count_as_their_product(case, model, factor):
     """Friction torque depends on η0 n alone: twice the viscosity at half the speed is the same."""
@@ -134,6 +136,7 @@ def test_viscosity_and_speed_count_as_their_product(case, model, factor):
 # -- at rest and without load ---------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @given(cases, both_models, oils)
 def test_at_rest_the_oil_does_not_matter(case, model, other_oil):
     """As n → 0 there is no film: neither viscosity nor pressure–viscosity coefficient matters, exactly."""
@@ -149,6 +152,7 @@ def test_at_rest_the_oil_does_not_matter(case, model, other_oil):
         assert side.friction_coefficient == 0.2
 
 
+@pytest.mark.slow
 @given(cases, both_models)
 def test_rest_is_the_limit_of_slow_motion(case, model):
     """Nothing jumps at rest but the drive torque, by the friction that turns with the motion."""
@@ -183,6 +187,7 @@ def test_limits_are_numbers(axial_load, screw_speed, screw, oil, model, ball_to_
         assert not r.validity["skid"]
 
 
+@pytest.mark.slow
 @given(screws(), oils, both_models, speeds)
 def test_without_load_the_screw_still_drags(screw, oil, model, screw_speed):
     """As Q → 0 only what pushes the balls along is left: friction between balls alone, and no efficiency."""

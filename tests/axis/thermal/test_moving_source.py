@@ -84,6 +84,7 @@ def test_the_profile_that_travels_with_the_nut(creeping, arrived, monkeypatch):
     assert np.log2(coarse[0] / coarse[1]) > 1.8
 
 
+@pytest.mark.slow
 def test_heat_that_travels_is_conserved(creeping, arrived):
     _, network = creeping
     state = arrived
@@ -101,6 +102,7 @@ def test_a_cycle_of_more_than_a_fiftieth_of_the_time_is_followed(hours, follows)
     assert is_long(duty, 3600.0) is follows
 
 
+@pytest.mark.slow
 def test_chosen_by_the_motion():
     """A cycle of 12 s in an hour is spread, one move of an hour is followed; heat is conserved in both."""
     fast = warm_up(to_and_fro(600), AIR, time=3600.0, outputs=3)
@@ -127,6 +129,7 @@ def test_fast_cycles_are_the_spread_heat():
     assert followed.nut_temperature[-1] == pytest.approx(spread.nut_temperature[-1], abs=0.02 * rise)
 
 
+@pytest.mark.slow
 def test_slots_are_the_cycle():
     """Their friction is in the mean that of the cycle, and their times are its time."""
     work = moved(

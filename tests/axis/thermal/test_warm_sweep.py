@@ -26,6 +26,7 @@ def swept(surroundings=AIR, screw=SCREW, **varied):
     return bs.warm_sweep(MODEL, screw, OIL, surroundings=surroundings, stroke=0.5, **varied)
 
 
+@pytest.mark.slow
 def test_each_point_is_its_own_steady_state():
     """Of speeds with their signs, loads, and designs; the torque is that of the model at the oil and preload there."""
     found = swept(axial_load=[0.0, 3000.0], screw_speed=[-200.0, 0.0, 60.0], **{"nut.preload": [2000.0, 3500.0]})
@@ -51,6 +52,7 @@ def test_each_point_is_its_own_steady_state():
     assert np.all(still["heat_margin"] == 1.0)
 
 
+@pytest.mark.slow
 def test_a_point_that_runs_away_has_no_numbers():
     sunk = dataclasses.replace(AIR, nut_conductance=80.0, ball_conductance=2.0)
     found = swept(sunk, axial_load=0.0, screw_speed=[50.0, 314.0])

@@ -65,6 +65,7 @@ def assert_same(found, expected):
         assert np.all(np.abs(1.0 * found[name][finite] - values[finite]) <= 1e-12 * size), name
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 @pytest.mark.parametrize("engine", ["numpy", "compiled"])
 @pytest.mark.parametrize("kind", [kind for kind, nut in NUTS.items() if nut.contacts_per_ball == 2])
@@ -216,6 +217,7 @@ def test_monte_carlo_is_compiled():
     assert np.allclose(found.screw_torque_mean, expected.screw_torque_mean, rtol=1e-12, atol=0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["double", "oversize"])
 def test_sizes_that_vary_at_one_preload(kind):
     """A size of the screw varies and the preload does not: the nut without load is another at each point."""

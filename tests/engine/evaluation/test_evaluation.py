@@ -222,6 +222,7 @@ def test_no_load_and_rest_as_numbers(name, engine):
             assert np.allclose(values, expected, rtol=1e-12, atol=1e-18, equal_nan=True), output
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 def test_a_tall_grid_has_no_tables():
     """Tables of many rows would need more memory than the blocks they serve."""

@@ -237,6 +237,7 @@ def test_an_input_that_is_a_constant_of_most_recordings_varies(name):
     np.testing.assert_allclose([f(5e3, 30.0, x)["screw_torque"] for x in values[name]], found, rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MODELS)
 @pytest.mark.parametrize("nut", [bs.SingleNut(), bs.DoubleNut(900.0, bodies=bs.Bodies())], ids=["row", "elastic"])
 def test_a_speed_beyond_all_numbers_is_none_for_each_engine(name, nut):

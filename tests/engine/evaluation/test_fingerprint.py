@@ -206,6 +206,7 @@ NUTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", NUTS)
 def test_an_equation_of_the_package_counts(kind, monkeypatch):
     """One equation of shipped laws is changed under the same version."""

@@ -24,6 +24,7 @@ LAWS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LAWS)
 def test_the_same_as_plain_arrays(name, model, seed_screw, seed_oil):
     changed = dataclasses.replace(model, friction=LAWS[name])

@@ -17,6 +17,7 @@ def figures_of(name, *options):
     return json.loads(outcome.stdout)
 
 
+@pytest.mark.slow
 def test_the_sides_of_the_sweep_agree():
     figures = figures_of("sweep.py", "--points", "20000", "--no-cold")
     assert figures["agreement"] < 1e-10

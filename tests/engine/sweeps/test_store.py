@@ -85,6 +85,7 @@ def test_cf_attributes_are_in_the_files(swept, tmp_path):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "nut",
     [bs.SingleNut(angle_under_load=True), bs.DoubleNut(1000.0), bs.SingleNut(bodies=bs.Bodies())],

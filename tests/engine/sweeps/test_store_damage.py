@@ -196,6 +196,7 @@ def test_files_of_another_store_do_not_pass_for_those_of_this_one(kind, complete
     assert files(complete) == whole
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", MIXED)
 def test_numbers_of_another_store_are_never_read(kind, complete, sibling, swept, stores):
     """Without a check of checksums either: what cannot be told by sizes is told as it is read."""
@@ -259,6 +260,7 @@ def test_a_file_where_there_should_be_none(complete, swept, whole):
 # -- metadata -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [

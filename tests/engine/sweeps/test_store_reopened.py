@@ -35,6 +35,7 @@ def test_a_complete_store_is_opened_at_once(swept, whole, tmp_path, monkeypatch)
     assert times(path, whole) == before
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("other", "said"),
     [
@@ -112,6 +113,7 @@ def test_the_values_of_a_law_count(seed_screw, seed_oil, tmp_path):
         swept(1.1)
 
 
+@pytest.mark.slow
 def test_an_equation_of_the_package_counts(seed_screw, seed_oil, tmp_path, monkeypatch):
     """Of a nut whose balls differ, which is not recorded: one equation is changed under the same version."""
     from ballscrew.physics.equations import film
@@ -171,6 +173,7 @@ def test_a_changed_plan_is_seen(swept, tmp_path):
             swept(tmp_path / "whole.zarr")
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 def test_the_engine_stays_what_it_was(swept, tmp_path, monkeypatch):
     for engine in ("numpy", "compiled"):

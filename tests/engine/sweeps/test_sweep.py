@@ -179,6 +179,7 @@ def test_imposed_offset_can_be_swept(seed_screw, seed_oil):
 UNSET = {"ball_to_ball_force": 0.02, "pure_rolling_offset": 0.3, "pressure_modulus_slope": 0.02}
 
 
+@pytest.mark.slow
 def test_every_input_can_be_swept(model, seed_screw, seed_oil):
     """Whatever is listed as an input may vary, and gives what the changed part gives."""
     operation = {"axial_load": 2000.0, "screw_speed": 30.0}
@@ -309,6 +310,7 @@ def test_a_fault_in_a_law_of_the_user_is_raised(seed_screw, seed_oil):
         bs.sweep(mine, seed_screw, seed_oil, axial_load=[1.0, 2.0], screw_speed=1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("block_size", "threads"), [(3, 1), (7, 2), (64, 3), (1000, 1), (119, 2)])
 def test_blocks_and_threads_change_no_bit(both, seed_screw, seed_oil, block_size, threads):
     model, whole, _ = both

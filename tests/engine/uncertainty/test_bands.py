@@ -55,6 +55,7 @@ def of_seed(seed_screw, seed_oil):
 # -- uncertain inputs -----------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_small_deviations_propagate_as_derivatives_say(of_seed, seed_screw, seed_oil):
     """σ² = Σ (∂M/∂x σ_x)², and the interval is normal: exact as the deviations vanish."""
     share = 1e-4
@@ -81,6 +82,7 @@ def test_small_deviations_propagate_as_derivatives_say(of_seed, seed_screw, seed
     assert found.model_form == (found.value, found.value)
 
 
+@pytest.mark.slow
 def test_wide_distributions_against_random_samples(drive):
     """The ends of the bands lie where the random sampler has the shares that they should have."""
     outputs = ["screw_torque", "efficiency", "holding_torque", "friction_power"]

@@ -259,6 +259,7 @@ def test_the_model_tells_what_the_torque_is_and_which_signs_it_has(how):
     assert found.residual_rms == pytest.approx(0.01, rel=0.15)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("how", "heading"), [("friction, magnitude", "friction_torque"), ("drive", "drive_torque")])
 def test_what_a_heading_says_counts(how, heading):
     columns, ideal, friction, sign, noise = parts()
@@ -419,6 +420,7 @@ def test_intervals_keep_within_the_bounds():
     assert half == pytest.approx(student.ppf(0.95, wide.degrees_of_freedom) * wide.std)
 
 
+@pytest.mark.slow
 def test_the_zero_of_the_sensor_wanders_where_both_directions_tell():
     columns = log(truth(), rows=300, wander=0.03, outliers=0, noise=0.003)
     found = fit(PAPER, SCREW, OIL, columns, [FRICTION], holdout=0)
@@ -485,6 +487,7 @@ def test_a_log_appended_to_itself_tells_no_more():
     assert any("3800 of 4000 rows repeat earlier ones" in note for note in twenty.rows.log.notes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", [{}, CALM])
 def test_the_worst_of_sixty_logs_of_eight_rows(options):
     """Right intervals hold the truth in all of sixty logs with a probability of 95 %, by Bonferroni's level.

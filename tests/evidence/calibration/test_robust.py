@@ -163,6 +163,7 @@ def test_noise_that_is_the_same_everywhere_is_taken_as_such_by_few_rows():
     assert noise_of(random.standard_normal(1000), np.full(1000, 3.0)).of(np.array([3.0])) == pytest.approx(1, rel=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rows", [40, 100, 400])
 def test_the_noise_of_few_rows_is_no_smaller_than_it_is(rows):
     """Medians of twelve rows are off by a third; a mean that trusts the small ones most would be too small."""

@@ -98,6 +98,7 @@ def test_no_marker_names_an_unknown_address(equation_table):
     assert set(equation_table.tests()) <= set(ADDRESSES)
 
 
+@pytest.mark.slow
 def test_markers_stand_on_functions_only(equation_table):
     # Elsewhere (a class, a parameter, pytestmark) they would not be seen.
     for path in sorted(TESTS.rglob("*.py")):

@@ -228,6 +228,7 @@ def test_numbers_of_a_figure(written):
     assert float(row["friction torque on screw, olaru2005 (N m)"]) == pytest.approx(result.screw_torque, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_data_can_be_read_back(written):
     with xr.open_dataset(written[0] / "data.nc", engine="h5netcdf") as data:
         xr.testing.assert_allclose(data.load(), paper.curves())

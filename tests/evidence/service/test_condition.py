@@ -38,6 +38,7 @@ def at_most(count, tries, rate):
 # -- known truths ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_loss_of_10_percent_is_found_at_1_percent_noise():
     found = many(PAPER, SEEDS, lost=0.1)
     assert at_least(sum(one.alarm is not None and one.chart.falls for one in found), SEEDS, 0.9)
@@ -46,6 +47,7 @@ def test_a_loss_of_10_percent_is_found_at_1_percent_noise():
     assert at_least(sum(one.states[-1].preload_low < 0.9 < one.states[-1].preload_high for one in found), SEEDS, 0.95)
 
 
+@pytest.mark.slow
 def test_a_drift_of_5_kelvin_that_is_logged_is_no_wear():
     found = many(PAPER, SEEDS, warmer=5.0)
     assert at_most(sum(one.alarm is not None for one in found), SEEDS, 0.05)

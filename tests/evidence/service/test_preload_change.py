@@ -109,6 +109,7 @@ def test_the_same_seed_gives_the_same_answer(exact):
     assert one.ratio_interval() == pytest.approx(another.ratio_interval(), rel=0.03)
 
 
+@pytest.mark.slow
 def test_alternatives_say_what_a_number_would_have_to_be():
     given = PAPER.friction.boundary_friction_coefficient
     friction = dataclasses.replace(PAPER.friction, boundary_friction_coefficient=0.7 * given)
@@ -134,6 +135,7 @@ def test_a_constant_torque_is_told_from_a_preload_where_it_is_free(exact):
     assert found.verdict != "lost"
 
 
+@pytest.mark.slow
 def test_one_log_against_the_nominal_preload(exact):
     found = change(None, exact[1])
     assert found.new.fit is None
@@ -182,6 +184,7 @@ def test_lift_off_within_a_log_is_said(exact):
     assert within(found, 1.0)
 
 
+@pytest.mark.slow
 def test_temperatures_without_a_grade_and_ratings(exact):
     oil = bs.Lubricant(viscosity=OIL.viscosity, pressure_viscosity_coefficient=OIL.pressure_viscosity_coefficient)
     new, worn = exact

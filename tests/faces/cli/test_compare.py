@@ -326,6 +326,7 @@ def test_colours_tell_all_mechanisms_apart():
     assert len(set(charts.MECHANISM_COLOURS.values())) == len(MECHANISMS)
 
 
+@pytest.mark.slow
 def test_compare_loads_no_pyplot_and_no_xarray_without_a_picture(example):
     code = (
         "import sys; from ballscrew.faces.cli import main as cli\n"

@@ -84,6 +84,7 @@ def test_the_sheet_has_every_test_with_its_intervals():
     assert marks["alarm"].x * 86400 == pytest.approx(result.states[result.alarm].time)
 
 
+@pytest.mark.slow
 def test_logs(ballscrew, tmp_path):
     rows = NEW.read_text(encoding="utf-8").splitlines()
     body = [row for row in rows if not row.startswith("#")]
@@ -142,6 +143,7 @@ def test_the_example_table_is_what_its_script_makes():
     assert TABLE.read_text(encoding="utf-8").startswith("# SYNTHETIC")
 
 
+@pytest.mark.slow
 def test_tests_without_a_speed_are_refused_though_the_case_has_one(ballscrew, tmp_path):
     """The speed of the case is of another motion: at 600 rpm in place of 100 rpm an alarm becomes none."""
     lines = [line for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]

@@ -445,6 +445,7 @@ RIG = ["fit", str(EXAMPLES / "rig_log.csv"), "--case", str(EXAMPLES / "rig.toml"
 QUICK = [*RIG, "--model", "olaru2005"]
 
 
+@pytest.mark.slow
 def test_the_estimates_of_a_log_with_temperatures_have_their_error_in_them(ballscrew):
     asked = [*QUICK, "--free", f"{FRICTION},constant_torque", "--json"]
     exact, usual, wide = (

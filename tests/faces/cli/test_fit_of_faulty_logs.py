@@ -148,6 +148,7 @@ def test_a_log_in_other_units_is_no_other_log(fit, log):
 # -- the example ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_example_log_is_what_its_script_makes():
     script = [sys.executable, str(EXAMPLES / "make_rig_log.py")]
     done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)

@@ -302,6 +302,7 @@ def rig(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_fit(ballscrew, rig):
     process = ballscrew("fit", "--case", "case.toml", "--rows", "rigs.csv", "--to", "fits", "--json")
     assert process.returncode == 0, process.stderr
@@ -336,6 +337,7 @@ def test_a_fit_that_is_warned_against_is_the_only_one_that_is_not_written(ballsc
     assert sorted(path.name for path in (rig / "fits").iterdir()) == ["X_1.toml", "Y_2.toml"]
 
 
+@pytest.mark.slow
 def test_faulty_logs(ballscrew, rig):
     command = ("fit", "--case", "case.toml", "--rows", "rigs.csv", "--to", "fits.csv")
     (rig / "logs" / "a.csv").unlink()

@@ -53,6 +53,7 @@ def test_what_is_given_and_what_is_usual(case):
     assert every.result.effect["axial_load"] == pytest.approx(given.result.effect["axial_load"])
 
 
+@pytest.mark.slow
 def test_inputs_have_words_of_their_own(case):
     reference = case_file.load(EXAMPLES / "feed_drive.toml")
     for one in (case, reference, case_file.load(EXAMPLES / "catalogue_screw.toml")):
@@ -172,6 +173,7 @@ def test_json_of_what_has_no_number(case):
 # -- the picture ----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_picture_by_the_command(ballscrew, example, tmp_path):
     path = tmp_path / "bars.svg"
     process = ballscrew("sensitivity", example, "--method", "morris", *FEW, "--json", "--to", path)
@@ -185,6 +187,7 @@ def test_picture_by_the_command(ballscrew, example, tmp_path):
     assert "laws do not" in shown
 
 
+@pytest.mark.slow
 def test_bars_are_the_numbers(found, case):
     result = found.result
     first, *left = sheet(case, found).of_kind(Bars)

@@ -21,6 +21,7 @@ def document(done):
     return json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
 
 
+@pytest.mark.slow
 def test_two_logs(ballscrew, tmp_path):
     done = ballscrew("service", NEW, WORN, *QUICK, "--json", "--picture", tmp_path / "nut.svg")
     found = document(done)
@@ -128,6 +129,7 @@ def test_a_faulty_log_is_named(ballscrew, tmp_path):
     assert done.stderr.startswith("bad.csv: ")
 
 
+@pytest.mark.slow
 def test_the_example_logs_are_what_their_script_makes():
     script = [sys.executable, str(EXAMPLES / "make_service_logs.py")]
     done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)

@@ -38,6 +38,7 @@ def files(folder):
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
+@pytest.mark.slow
 def test_a_store_holds_what_netcdf_does(example, ballscrew, tmp_path):
     told = {}
     for kind in ("zarr", "nc"):
@@ -68,6 +69,7 @@ def test_what_cannot_be_built_is_said_from_the_store(ballscrew, tmp_path):
     assert store.attrs["lubricant_grade"] == "ISO VG 100"
 
 
+@pytest.mark.slow
 def test_a_complete_store_is_left_as_it_is(example, ballscrew, tmp_path):
     first = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
     before = {name: (tmp_path / "map.zarr" / name).stat().st_mtime_ns for name in files(tmp_path / "map.zarr")}
@@ -189,6 +191,7 @@ def test_a_scheduler_that_does_not_answer(example, ballscrew, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_sweep_on_a_cluster(example, ballscrew, tmp_path):
     distributed = pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
     there = {"host": "127.0.0.1", "protocol": "tcp://", "scheduler_port": 0, "dashboard_address": ":0"}

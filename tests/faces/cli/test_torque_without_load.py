@@ -49,6 +49,7 @@ def test_rules_are_held_against_the_balls(found):
             assert base * (1 + change) == pytest.approx(value, rel=1e-9, nan_ok=True)
 
 
+@pytest.mark.slow
 def test_the_table_has_the_base_that_its_changes_are_relative_to(ballscrew):
     text = ballscrew("compare", AXIS).stdout
     lines = text[text.index("\n  this case") + 1 :].splitlines()[:3]
@@ -146,6 +147,7 @@ def test_what_of_it_are_seals_stands_below_it(ballscrew, command):
     assert lines[at + 1] == "of which seals 0.3 N m"
 
 
+@pytest.mark.slow
 def test_seals_of_another_maker_are_called_so(tmp_path, ballscrew):
     table = tmp_path / "own.csv"
     table.write_text(OWN, encoding="utf-8")

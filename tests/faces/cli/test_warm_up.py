@@ -155,6 +155,7 @@ def test_a_band_of_nothing_is_refused(study):
         banded(of, only_given=True)
 
 
+@pytest.mark.slow
 def test_what_the_case_gives_is_no_default(case):
     """Also where it gives the very number that would stand in for it."""
     written = POINT + 'ambient = "20 degC"\nbearing_conductance = "8 ± 2 W/K"\n'
@@ -315,6 +316,7 @@ def test_columns_of_the_shaft(case):
     assert {len(column.values) for column in shaft.columns} == {report.warm_up.time.size}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [

@@ -212,6 +212,7 @@ def structure_of(reader):
 # -- what is in it --------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_numbers_are_those_of_the_program(pdf, page):
     found = run(case_of("catalogue_screw"))
     result = found.friction
@@ -461,6 +462,7 @@ def test_the_rules_of_makers_stand_below_the_torque_without_load(content):
     assert "contradict each other" in table.note
 
 
+@pytest.mark.slow
 def test_rows_of_a_vendor_stand_beside_it(content):
     (said, table) = next(s for s in content.sections if s.title == "Beside a vendor's rows").blocks
     near = vendor_rows_like(case_of("catalogue_screw"))
@@ -549,6 +551,7 @@ def test_the_pdf_is_tagged_for_everybody(pdf):
     assert any(alt and "between its grooves" in alt for alt in alternatives)
 
 
+@pytest.mark.slow
 def test_figures_of_the_pdf_have_text_that_can_be_read_back(pdf):
     words = text_of(pdf)
     for text in ("speed of the screw (rpm)", "film parameter λ", "Contact of ball and screw", "hydrodynamic rolling"):

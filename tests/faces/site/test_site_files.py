@@ -32,6 +32,7 @@ def test_two_builds_are_the_same_bytes(files):
     assert site.site(**FEW) == files
 
 
+@pytest.mark.slow
 def test_a_module_has_the_name_of_its_content(files):
     modules = {name: content for name, content in files.items() if name.endswith(".wasm")}
     assert len(modules) == 6  # two structures, the oils, the solver of elastic nuts, what is judged, and what is drawn

@@ -10,6 +10,7 @@ from ballscrew.evidence.validation.sets import SETS
 STRICT = ("content-security-policy", "x-content-type-options", "referrer-policy", "cross-origin-opener-policy")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("path", "status"),
     [("/", 200), ("/api", 200), ("/page/main.js", 200), ("/viewer/swagger-ui.css", 200),

@@ -32,6 +32,7 @@ def test_the_same_request_is_computed_once(asked, paper):
     assert len(computed) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [{"samples": 65}, {"level": 0.9}])
 def test_another_request_is_computed(asked, paper, change):
     client, computed = asked

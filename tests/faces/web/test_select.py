@@ -25,6 +25,7 @@ NEED = {
 }
 
 
+@pytest.mark.slow
 def test_the_answer_is_the_document_of_the_command(server):
     found = server.post("select", {"need": NEED, "words": "rexroth 32x10"})
     assert found.status_code == 200, found.text[:500]

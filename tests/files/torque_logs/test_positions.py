@@ -68,6 +68,7 @@ def test_a_log_with_a_position_has_a_speed(read):
     assert steady.left_out["speed changes"] > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("noise", [1e-6, 1e-5])
 def test_pieces_make_no_difference(noise, read):
     """Noise of the position that takes lines of 17 and 65 rows; gaps, a clock that begins anew and a missing value."""

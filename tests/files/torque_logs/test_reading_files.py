@@ -99,6 +99,7 @@ def long_text(rows):
     return HEADINGS + "\n".join(lines) + "\n"
 
 
+@pytest.mark.slow
 def test_pieces_make_no_difference(read):
     text = long_text(20_000)
     whole = read(text)

@@ -156,6 +156,7 @@ def test_compiled_sweeps_over_the_oil_are_those_of_numpy_and_of_the_model():
     assert float(torque) == pytest.approx(float(MODEL(SCREW, oil, **at).screw_torque), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_preloaded_nut_over_the_temperature():
     screw = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=3000.0))
     swept = bs.sweep(MODEL, screw, OIL, outputs=["screw_torque"], engine="numpy", **POINTS)["screw_torque"]

@@ -132,6 +132,7 @@ def test_a_preload_set_at_rest_is_a_larger_one_in_motion():
     np.testing.assert_allclose(given.screw_torque, found[True].screw_torque, rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bodies", [None, bs.Bodies()], ids=["rigid", "elastic"])
 def test_rest_is_the_limit_of_a_vanishing_speed_and_a_first_start_its_own_state(bodies):
     """Friction holds the balls off their line where the nut stops; one that was never turned has its preload as set."""
@@ -217,6 +218,7 @@ def test_without_preload_nothing_grows_and_the_flag_is_true_or_false():
         bs.DoubleNut(preload=900.0, set_at_rest="no")
 
 
+@pytest.mark.slow
 def test_the_chain_and_the_ripple_are_of_the_nut_in_motion():
     """As of a nut that is given the preload which it has there."""
     screw, _ = SCREWS["40x10"]

@@ -82,6 +82,7 @@ def test_what_the_races_put_in_is_taken_by_creep_and_return(gap, deviation):
     assert found.power_dissipated == pytest.approx(found.power_in, rel=1e-11)
 
 
+@pytest.mark.slow
 def test_the_return_brakes_with_the_push_of_the_last_ball():
     # jam-free balls creep next to nothing: the power is the push at the speed of the balls
     found = moving(1.0, 0.0)

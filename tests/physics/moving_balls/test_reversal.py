@@ -54,6 +54,7 @@ def test_a_short_travel_is_the_begin_of_the_curve(turned, travel):
     assert short.screw_torque[1:][beyond] == pytest.approx(there[beyond], abs=2e-3 * turned.steady_torque)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("screw", "oil", "load"), [(PAPER, PAPER_OIL, 500.0), (SINGLE, OIL, 3605.0), (SINGLE, OIL, 15e3)]
 )
@@ -216,6 +217,7 @@ def test_on_a_short_stroke_balls_slip_by_their_spin_alone(turned, ball):
     assert slip > 1.5 * parts["spin_and_curvature"]
 
 
+@pytest.mark.slow
 def test_steps_are_those_that_are_taken(monkeypatch):
     """All but those within the first five cells, which are finer."""
     taken = []

@@ -76,6 +76,7 @@ def test_a_ball_has_the_friction_of_the_model():
     assert 2 * 20 * at_nominal == pytest.approx(float(found.screw_torque), rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_ball_on_four_contacts_has_the_friction_of_the_model():
     screw = dataclasses.replace(SCREW, nut=bs.OversizeBallNut(preload=900.0))
     zone = zone_of(screw)
@@ -145,6 +146,7 @@ def test_rubbing_and_return_are_works_of_forces():
 # -- a run ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_parts_sum_and_a_perfect_nut_has_the_drag_of_the_model():
     found = ripple(groove_deviation=0.0, relief=0.1)
     assert sum(found.parts.values()) == pytest.approx(found.mean, rel=1e-12)
@@ -186,6 +188,7 @@ def test_half_the_step_and_twice_the_length_are_the_same_ripple():
         assert changed.amplitude_of("screw") == pytest.approx(usual.amplitude_of("screw"), rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_mirror_changes_nothing():
     """Load and speed reversed in grooves that are seen in a mirror, a spall with them: the same torque."""
     part = dataclasses.replace(SCREW, nut=dataclasses.replace(SINGLE_NUT, angle_under_load=True))

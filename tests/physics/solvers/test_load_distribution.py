@@ -175,6 +175,7 @@ def scattered(balls, seed):
     return Deviations.scattered(balls, seed=seed, ball_diameter=3e-7, lead=4e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.implausible
 @pytest.mark.parametrize("swelling", [False, True])
 @pytest.mark.parametrize("same_side", [True, False])
@@ -334,6 +335,7 @@ def test_of_an_array_each_load_has_the_lift_off_load_of_its_sign():
     assert together.at(np.array([2, 0])).rigid_lift_off_load == pytest.approx([2738, 2738], abs=0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("same_side", [True, False])
 @pytest.mark.parametrize("swelling", [True, False])
 @pytest.mark.parametrize("nut", [DoubleNut(954.0, 0.01), OffsetLeadNut(954.0), OversizeBallNut(500.0)])

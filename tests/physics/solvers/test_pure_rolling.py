@@ -145,6 +145,7 @@ def test_converges_everywhere(anywhere):
     assert np.all(anywhere.validity["equilibrium"])
 
 
+@pytest.mark.slow
 def test_more_steps_change_nothing(anywhere, monkeypatch):
     few = outcome(anywhere)
     monkeypatch.setattr(pure_rolling, "NEWTON_STEPS", 3 * pure_rolling.NEWTON_STEPS)

@@ -35,6 +35,7 @@ def drawn(found):
     return [candidate.name for candidate in band.of_makers(found)]
 
 
+@pytest.mark.slow
 def test_whose_calibrations_are_drawn():
     """All of them where no make is known, that of the make where it is, none where nothing could be calibrated."""
     assert drawn(case()) == ["rexroth-2006-rubbing", "hiwin", "jis"]

@@ -49,6 +49,7 @@ def test_axes_name_their_units(figure):
             assert re.search(r"\((N m|mm|mm/s)\)$|^efficiency η$", panel.get_ylabel())
 
 
+@pytest.mark.slow
 def test_both_models_side_by_side_on_one_scale(figure):
     titles = [panel.get_title(loc="left") for panel in figure.axes]
     assert sum(title.startswith("as printed") for title in titles) == sum(t.startswith("corrected") for t in titles) > 0
@@ -143,6 +144,7 @@ def test_forces_and_moments_of_the_drawings_balance(sources):
             assert sum(values) == pytest.approx(0, abs=1e-12 * max(map(abs, values)) + 1e-13)
 
 
+@pytest.mark.slow
 def test_nobodys_settings_matter(sources, tmp_path):
     plot = PLOTS["fig7_efficiency_over_speed"]
     with charts.house_style():

@@ -253,6 +253,7 @@ def test_without_pymoo_a_fault_says_how_to_get_it(monkeypatch):
         searches._pymoo()
 
 
+@pytest.mark.slow
 @needs_pymoo
 def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     tables = {"force": "900 kN", "feed": "60 m/min", "nut": "single", "life": "20000 h"}

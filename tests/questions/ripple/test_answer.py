@@ -147,6 +147,7 @@ def test_faults_by_what_was_written():
     assert set(defects_of(ALL)) == set(ALL)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("fault", "message"),
     [

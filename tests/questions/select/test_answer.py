@@ -28,6 +28,7 @@ def found(request):
     return bs.select(request.param)
 
 
+@pytest.mark.slow
 def test_the_numbers_compared_are_on_every_face(found):
     answer, headings = documents.document(found), files.rows_of(of_selection(found.ranked)).headings
     schema = declared.schema(OneCandidate).model_json_schema()["$defs"]["Objectives"]["properties"]

@@ -253,13 +253,14 @@ def test_numbers_of_a_point_in_a_full_bath(speed, drive, starves):
 @pytest.mark.parametrize("starves", [True, False])
 def test_numbers_of_a_cycle_in_a_full_bath(starves):
     numbers = {"energy_lost": 30.0, "cycle_time": 4.0, "torque_peak": -6.0, "life_time": 9.0}
-    report = types.SimpleNamespace(numbers=numbers, full_bath={"energy_lost": 50.0}, motor_torque={"torque_peak": 8.0})
+    bath = lambda lost: types.SimpleNamespace(numbers={"energy_lost": lost})  # noqa: E731  (of one line)
+    report = types.SimpleNamespace(numbers=numbers, bath=bath(50.0), motor_torque={"torque_peak": 8.0})
     # numbers of a candidate by hand, without the model that a selection asks
     found = candidates._of_cycle(report, starves=starves)
     expected = {"loss": 12.5, "drive_torque": 8.0} if starves else {"loss": 7.5, "drive_torque": 6.0}
     assert found == {**expected, "life": 9.0}
     # a full bath that loses less takes nothing away
-    less = types.SimpleNamespace(numbers=numbers, full_bath={"energy_lost": 20.0}, motor_torque={"torque_peak": 6.0})
+    less = types.SimpleNamespace(numbers=numbers, bath=bath(20.0), motor_torque={"torque_peak": 6.0})
     assert candidates._of_cycle(less, starves=starves)["loss"] == 7.5
 
 

@@ -205,6 +205,7 @@ def test_what_its_loads_rule_out_changes_no_rank(need):
     assert (best and best.variant.label) == (same and same.variant.label)
 
 
+@pytest.mark.slow
 def test_order_and_front():
     found = bs.select(FEW)
     candidates = [each.candidate for each in found.ranked]

@@ -35,6 +35,7 @@ def test_every_row_stands_there_once(computed):
     assert listed == [point.name for entries in found for point in entries[0].points]
 
 
+@pytest.mark.slow
 def test_coverage_is_counted(computed):
     """By hand: how many middles lie between the ends of the band of their row."""
     found, _, made = computed

@@ -74,6 +74,7 @@ def test_shares_and_widths_by_hand():
     assert found.uncertainty_width == pytest.approx(math.sqrt(2 * 4))
 
 
+@pytest.mark.slow
 def test_every_no_load_torque_of_a_known_nut_has_a_band():
     asked = validation.request(["thk-jis", "xjtu"])
     for entries, _ in validation.evaluate(asked):

@@ -61,6 +61,7 @@ def test_every_number_of_the_steady_state_is_on_every_face(report):
         assert rows[meaning] == answer["results"]["equilibrium"][name]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
 def test_answers_are_valid_by_their_schema(settings, starved):
     report = warmed_up(load(EXAMPLE, settings, None), hours=0.5)
@@ -69,6 +70,7 @@ def test_answers_are_valid_by_their_schema(settings, starved):
     assert (found["results"]["full_bath"] is not None) == starved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
 def test_a_full_bath_is_drawn_where_oil_comes_back_late(settings, starved):
     charts = sheet(warmed_up(load(EXAMPLE, settings, None), hours=0.5)).of_kind(Chart)
@@ -76,6 +78,7 @@ def test_a_full_bath_is_drawn_where_oil_comes_back_late(settings, starved):
     assert ("in a full bath of oil" in curves) == starved
 
 
+@pytest.mark.slow
 def test_every_number_has_a_unit(report):
     found = document(report)
     assert list(without_unit(found["results"], found["units"])) == []

@@ -350,8 +350,9 @@ function search(text) {
   if (!text.trim()) return;
   const { names, isCode } = screwsFor(text, { ...contents.starts, ...contents.rows });
   const isStart = (/** @type {string} */ name) => Object.hasOwn(contents.starts, name);
-  if (names.length === 1 && !isCode && isStart(names[0])) {
-    beginAt(names[0]);
+  const starts = names.filter(isStart);
+  if (starts.length === 1 && !isCode) {
+    beginAt(starts[0]);
     return;
   }
   const found = isCode
