@@ -26,6 +26,8 @@ from ballscrew.questions.validate import sheet as sheets
 from ballscrew.questions.validate import summary as summaries
 
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
+#: Sets of more rows are neither printed nor drawn row by row.
+MOST_ROWS = 100
 #: Largest error of a rating in the standard's own tests.
 C_A, C_0A = 0.015, 0.01
 
@@ -57,11 +59,21 @@ def write(folder: Path) -> None:
         "rules.md": rules_table(),
         "rule_sources.md": sources_table(),
         "rule_scatter.md": residuals_after_rules(),
-        "rows.txt": "\n\n".join(terminal.text(sheets.sheet(entries, asked)) for entries in sets) + "\n",
+        "rows.txt": "\n\n".join(_rows(entries, asked) for entries in sets) + "\n",
     }
     for name, text in pages.items():
         (folder / name).write_text(text, encoding="utf-8")
-    files.draw(lambda: pictures.picture(sheets.picture(sets, asked)), folder / "validation.svg")
+    drawn = [entries for entries in sets if len(entries[0].points) <= MOST_ROWS]
+    files.draw(lambda: pictures.picture(sheets.picture(drawn, asked)), folder / "validation.svg")
+
+
+def _rows(entries, asked) -> str:
+    """The rows of a set as the command prints them; of a whole catalogue the command alone."""
+    text = terminal.text(sheets.sheet(entries, asked))
+    if len(entries[0].points) <= MOST_ROWS:
+        return text
+    title, _, _ = text.partition("\n")
+    return f"{title}\n  {len(entries[0].points)} rows: ballscrew validate {entries[0].data.name}"
 
 
 def summary() -> str:
@@ -168,6 +180,8 @@ SHORT = {
     "hiwin-ratings": "HIWIN: dynamic load rating by ISO 3408-5",
     "hiwin-stiffness": "HIWIN: rigidity without preload",
     "rexroth-rigidity": "Rexroth: rigidity R_nu,ar of preloaded double nuts",
+    "thk-ratings": "THK: dynamic load rating by ISO 3408-5, balls estimated, nothing fitted",
+    "thk-rigidity": "THK: rigidity of nuts by the same contacts, balls estimated, nothing fitted",
     "support-bearings": "NSK, IBC: axial rigidity of 60° bearings by the same contacts",
 }
 
@@ -229,7 +243,7 @@ def _lines_of_vendors():
     """The sets with their names; the kinds of nut of one that has several one by one, as a mean of all says nothing."""
     for entries in found()[1]:
         data, groups = entries[0].data, entries[0].groups
-        if data.of_screws and not data.alternatives and len(groups) > 1:
+        if data.of_screws and not data.alternatives and 1 < len(groups) < len(entries[0].points) <= MOST_ROWS:
             for name in groups:
                 yield f"{SHORT[data.name]}: {name}", [entry.groups[name] for entry in entries]
         else:

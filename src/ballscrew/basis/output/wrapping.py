@@ -21,7 +21,7 @@ def cut(text: str, width: int, indent: int = 0) -> list[str]:
     ) or [""]
 
 
-def beside(prefix: str, words: str, narrowest: int = 24) -> str:
+def beside(prefix: str, words: str, narrowest: int = 20) -> str:
     """Words in a last column, which goes on below itself."""
     lines = cut(words, max(narrowest, WIDTH - len(prefix)))
     return "\n".join([(prefix + lines[0]).rstrip(), *(" " * len(prefix) + line for line in lines[1:])])

@@ -168,11 +168,12 @@ def select(
         case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
         return by_loads(asked, variant, case)
 
-    known: dict[str, Candidate] = {}
+    by_loads_alone = None
     if ready.table is None and not complete and len(every) > MOST_JUDGED:
-        known = dict(each({one.label: one for one in every}, without_friction, keep_going=True, done=done).found)
-        every, note = _most_likely(every, known, moves=asked.moves)
+        by_loads_alone = each({one.label: one for one in every}, without_friction, keep_going=True, done=done)
+        every, note = _most_likely(every, by_loads_alone.found, moves=asked.moves)
         asked = asked.with_note(note) if note else asked
+    known = {} if by_loads_alone is None else by_loads_alone.found
 
     def work(variant: Variant) -> Candidate:
         candidate = known.get(variant.label) or without_friction(variant)
@@ -183,7 +184,10 @@ def select(
         return candidate
 
     # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
-    result = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
+    if by_loads_alone is not None and by_loads_alone.interrupted:
+        result = by_loads_alone
+    else:
+        result = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
     if asked.length_is_stroke:  # each candidate says its own length
         asked = asked.with_note(f"unsupported length: {LENGTH_OF_STROKE}")
     candidates = list(result.found.values())
@@ -237,6 +241,8 @@ def plan(
     recorded = _worth_recording(asked, every)
     for variant in every:
         seconds += SECONDS["point"] if not asked.moves else SECONDS["recorded" if variant.nut in recorded else "cycle"]
+    if ready.table is None:  # of the shipped rows no more are judged
+        seconds *= min(1.0, MOST_JUDGED / len(every))
     return Plan(len(every), seconds, tuple(one for one in UNASKED if _is_open(asked, one.input)))
 
 
