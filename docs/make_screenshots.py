@@ -132,7 +132,7 @@ def of_static_page(browser: Browser) -> None:
         subprocess.run([*COMMAND, "site", file, "--single", *kinds], check=True, capture_output=True)
         page = browser.new_page(color_scheme="light", viewport=STATIC_SIZE)
         page.goto(f"{file.as_uri()}#{STATIC}")
-        page.wait_for_selector("html[data-ready]")
+        page.wait_for_selector("html[data-ready][data-band=fan]")
         page.wait_for_timeout(1000)
         save("static_page.png", page.screenshot())
         page.close()
