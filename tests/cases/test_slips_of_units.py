@@ -129,6 +129,19 @@ def test_rows_that_are_shipped_are_likely():
         assert unlikely.issuperset(case_file.build(tables).unlikely), name
 
 
+def test_ratings_of_a_catalogue_are_likely_only_with_the_balls_of_their_row():
+    """A row whose listed ratings are far from those by its estimated balls, and a nut with fewer balls than its row."""
+    subjects = {"screw.dynamic_load_rating", "screw.static_load_rating"}
+    examples = Path(__file__).parents[2] / "examples" / "service.toml"
+    for settings, expected in (
+        (["screw.catalogue=thk-bnfn10020a-5"], set()),
+        (["screw.catalogue=rexroth-40x10x6-6-double"], set()),
+        (["screw.catalogue=rexroth-40x10x6-6-double", "screw.loaded_balls=40"], subjects),
+    ):
+        records = case_file.load(examples, settings).implausible()
+        assert {record.subject for record in records} & subjects == expected, settings
+
+
 def test_a_static_rating_below_the_dynamic_one_is_named():
     found = odd_ratings({"dynamic_load_rating": 50e3, "static_load_rating": 49e3}, Ratings(50e3, 70e3))
     (record,) = found

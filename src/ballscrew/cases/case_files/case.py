@@ -204,9 +204,11 @@ class Case(Displayed):
         screw, listed = self.screw, self.listed
         if unusual("screw", screw) or _too_many_balls(screw, self.row):
             return []
-        if self.row is not None and is_shipped(self.row):  # what its own catalogue prints is no slip
-            listed = {name: value for name, value in listed.items() if value != getattr(self.row, name)}
-        ratings = odd_ratings(listed, ratings_of(rated_geometry_of(screw))) if {*RATED} & {*listed} else []
+        geometry, row = rated_geometry_of(screw), self.row
+        if row is not None and is_shipped(row) and geometry == rated_geometry_of(row.screw(nut=screw.nut)):
+            # what its own catalogue prints of these balls is no slip
+            listed = {name: value for name, value in listed.items() if value != getattr(row, name)}
+        ratings = odd_ratings(listed, ratings_of(geometry)) if {*RATED} & {*listed} else []
         values = [*ratings, *odd_root(listed.get("root_diameter"), screw), *odd_seals(screw)]
         return [*values, *_light(self.axis, screw)]
 
