@@ -39,9 +39,18 @@ TABLES = {
 }
 #: What a call of a model answers, as people ask for it.
 RESULTS = (
-    "screw_torque", "drive_torque", "holding_torque", "efficiency", "back_driving_efficiency", "friction_power",
-    "screw_film_parameter", "screw_maximum_pressure", "screw_ellipticity", "nut_film_parameter", "nut_maximum_pressure",
-)  # fmt: skip
+    "screw_torque",
+    "drive_torque",
+    "holding_torque",
+    "efficiency",
+    "back_driving_efficiency",
+    "friction_power",
+    "screw_film_parameter",
+    "screw_maximum_pressure",
+    "screw_ellipticity",
+    "nut_film_parameter",
+    "nut_maximum_pressure",
+)
 #: Names in Python with what they are for.
 PYTHON = {
     "bs.BallScrew(…)": "a screw; nut=bs.DoubleNut(preload=…)",
@@ -54,7 +63,7 @@ PYTHON = {
     "bs.monte_carlo(…, distributions={…})": "a band",
     "bs.fit(…, free=[…])": "numbers of a model from a log",
 }
-#: Words that a command takes beside its case.
+#: Options that many commands have.
 OPTIONS = {
     '--set operation.axial_load="2 kN"': "another value, with its unit",
     "--json, --sheet": "the document; what people see of it, as data",
@@ -82,7 +91,7 @@ def contents() -> list[tuple[str, list[tuple[str, str]]]]:
     results = known_outputs()
     return [
         ("Commands", commands()),
-        ("With any of them", list(OPTIONS.items())),
+        ("Options of many commands", list(OPTIONS.items())),
         ("Units, typed with every number", [(unit, ", ".join(usual)) for unit, usual in units.USUAL.items()]),
         *((f"Case file: [{name}]", rows) for name, rows in fields.items()),
         ("Python: import ballscrew as bs", list(PYTHON.items())),

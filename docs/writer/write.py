@@ -122,8 +122,13 @@ class Written:
 
     def made_here(self, names: set[str]) -> set[str]:
         """The figures that are not kept by the command of another page: the gallery shows those, too."""
-        others = {name.replace("/", "-") for name in pages()} - {self.name.replace("/", "-"), *PARTS}
-        return {name for name in names if name.partition("/")[0] not in others}
+        own = {self.name.replace("/", "-"), *PARTS}
+        folders = {name: name.partition("/")[0] for name in names}
+        return {
+            name
+            for name, folder in folders.items()
+            if folder in own or not (DOCS / f"{folder.replace('-', '/', 1)}.md").is_file()
+        }
 
     def outputs(self, files: kept.Files) -> list[str]:
         """What its commands print."""

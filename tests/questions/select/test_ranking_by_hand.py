@@ -253,7 +253,10 @@ def test_numbers_of_a_point_in_a_full_bath(speed, drive, starves):
 @pytest.mark.parametrize("starves", [True, False])
 def test_numbers_of_a_cycle_in_a_full_bath(starves):
     numbers = {"energy_lost": 30.0, "cycle_time": 4.0, "torque_peak": -6.0, "life_time": 9.0}
-    bath = lambda lost: types.SimpleNamespace(numbers={"energy_lost": lost})  # noqa: E731  (of one line)
+
+    def bath(lost):
+        return types.SimpleNamespace(numbers={"energy_lost": lost})
+
     report = types.SimpleNamespace(numbers=numbers, bath=bath(50.0), motor_torque={"torque_peak": 8.0})
     # numbers of a candidate by hand, without the model that a selection asks
     found = candidates._of_cycle(report, starves=starves)

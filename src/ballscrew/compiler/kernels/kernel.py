@@ -250,9 +250,10 @@ def code_of(text: str, optimisation: int | None = None) -> bytes:
 
     No bit of a result depends on the ``optimisation``, 0 to 2, which is quicker code against quicker compiling.
     """
-    expected = text.count("\n") * LINE_SECONDS * (UNOPTIMISED_SHARE if optimisation == 0 else 1)
+    lines = text.count("\n")
+    expected = lines * LINE_SECONDS * (UNOPTIMISED_SHARE if optimisation == 0 else 1)
     if expected > LOGGED_SECONDS:
-        notice = f"compiling a kernel of {text.count(chr(10))} lines: some {expected:.0f} s, once"
+        notice = f"compiling a kernel of {lines} lines: some {expected:.0f} s, once"
         _log.info(notice)
         if sys.stderr.isatty() or hasattr(sys, "ps1"):  # a terminal, or a notebook
             sys.stderr.write(f"{notice}\n")

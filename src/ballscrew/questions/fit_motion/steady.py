@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ballscrew.basis import units
@@ -35,7 +36,7 @@ def sheet(friction: SteadyFriction, log: MovingLog) -> Sheet:
     headings = ("speed", "forward", "backward", "friction", "standard error", "offset", "rows", "stretches")
     low, high = friction.interval
     exponent = "the speeds do not tell an exponent"
-    if low == low:
+    if not math.isnan(low):
         exponent = f"friction as the speed to the power of {friction.exponent:.2f} ({low:.2f} to {high:.2f})"
     speeds, values = ([getattr(one, name) for one in friction.speeds] for name in ("speed", "friction"))
     return Sheet(
@@ -64,7 +65,7 @@ def document(friction: SteadyFriction, log: MovingLog) -> dict[str, Any]:
         "speeds": [
             {name: getattr(one, name) for name in ("speed", *_NUMBERS, "rows", "stretches")} for one in friction.speeds
         ],
-        "speed_exponent": None if low != low else {"value": friction.exponent, "interval": [low, high]},
+        "speed_exponent": None if math.isnan(low) else {"value": friction.exponent, "interval": [low, high]},
         "resolution": friction.resolution,
         "notes": list(log.notes),
         "provenance": {"version": __version__, "log": (log.source or ("log", ""))[0]},

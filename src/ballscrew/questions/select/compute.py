@@ -133,7 +133,7 @@ def select(
     done: Done | None = None,
     found_one: Callable[[Candidate], None] | None = None,
 ) -> Selection:
-    """Every row of the catalogue with every nut, preload and oil of a need, judged and ranked: a :class:`Selection`.
+    """Rows of the catalogue with every nut, preload and oil of a need, judged and ranked: a :class:`Selection`.
 
     ``need`` is a file, its tables, or a need that was read (:func:`~ballscrew.questions.select.need.need_of`);
     ``settings`` of the form ``section.field=value`` win over file and tables. ``model`` names the model of friction and
@@ -143,7 +143,9 @@ def select(
     Each candidate is the case that ``ballscrew check`` would take, of a need with a motion that of ``ballscrew duty``:
     nothing is estimated. What follows from loads and sizes alone is judged first; of those that it rules out by more
     than :data:`~ballscrew.questions.select.candidates.NEARLY` the friction is asked for only if the list is to be
-    ``complete``, which changes no rank.
+    ``complete``, which changes no rank. Of the rows shipped, where their loads allow more than :data:`MOST_JUDGED`
+    candidates, those with the least load times diameter over lead are judged and ranked, with a note, and all if the
+    list is to be ``complete``; of a table of one's own all are.
 
     First come those of which no check fails, within the validity of the model before those outside, members of the
     Pareto front before others, then by the first of the ``objectives``. Those that fail follow by their largest
@@ -171,8 +173,9 @@ def select(
     by_loads_alone = None
     if ready.table is None and not complete and len(every) > MOST_JUDGED:
         by_loads_alone = each({one.label: one for one in every}, without_friction, keep_going=True, done=done)
-        every, note = _most_likely(every, by_loads_alone.found, moves=asked.moves)
-        asked = asked.with_note(note) if note else asked
+        if not by_loads_alone.interrupted:
+            every, note = _most_likely(every, by_loads_alone.found, moves=asked.moves)
+            asked = asked.with_note(note) if note else asked
     known = {} if by_loads_alone is None else by_loads_alone.found
 
     def work(variant: Variant) -> Candidate:

@@ -1,7 +1,8 @@
 // The charts of the page.
 
 import { element } from "../../web/page/dom.js";
-import { FULL_BATH, fullBath, linesByValidity, pointAt, REPLENISHMENT } from "../../web/page/figure_parts.js";
+import { linesByValidity, pointAt } from "../../web/page/figure_parts.js";
+import { FULL_BATH, fullBath, REPLENISHMENT } from "../../web/page/starvation.js";
 import { SPEED, TORQUE } from "./bands.js";
 import { evenly, holding, inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
 import { digitsOf, plainDigits, signOf, withUnit } from "./words.js";

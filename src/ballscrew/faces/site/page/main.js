@@ -14,6 +14,7 @@ import { judgedAt, recordsOf, textOf } from "./judgements.js";
 import { keepOffline, moduleOf, site } from "./modules.js";
 import { screwsFor } from "../../web/page/part_search.js";
 import { forget } from "../../web/page/palette.js";
+import { floodedTorqueIn } from "../../web/page/starvation.js";
 import { Taking } from "./taking.js";
 import { inSiUnit } from "./view.js";
 import { inPlace, keep, kept, useSymbols } from "./words.js";
@@ -25,8 +26,6 @@ const BUDGET = 8;
 const BUDGET_AT_REST = 80;
 /** Milliseconds of a point that was not measured yet: of a nut whose balls are solved one by one, and of others. */
 const USUAL_PACE = [2, 0.01];
-/** The verdict on a screw that is starved of oil. */
-const STARVED = "lubricant.starved";
 const SCHEME_KEPT = "ballscrew-site-scheme";
 const SCHEMES = ["light", "dark"];
 
@@ -79,7 +78,7 @@ const scene = {
   },
   floodedTorque() {
     const records = scene.judged ? [...scene.judged.verdicts, ...scene.judged.warnings] : [];
-    return records.find(({ id }) => id === STARVED)?.value ?? undefined;
+    return floodedTorqueIn(records);
   },
   give(name, shown) {
     if (shown === undefined) delete shownCase.state.given[name];

@@ -2,25 +2,21 @@
 
 import * as designs from "./designs.js";
 import { byId } from "./dom.js";
+import { floodedTorqueIn, REPLENISHMENT } from "./starvation.js";
 import * as units from "./units.js";
 
-const PATH = "model.inlet.replenishment_constant";
+const PATH = `model.${REPLENISHMENT}`;
 const FULL = "0";
-
-/** The friction torque in a full bath, in SI, of a result that is starved of oil. @param {Run} answer */
-function floodedTorque({ verdicts }) {
-  return verdicts.find(({ id }) => id === "lubricant.starved")?.value;
-}
 
 /** True where a result is starved of oil. @param {Run} answer */
 export function isStarved(answer) {
-  return floodedTorque(answer) !== undefined;
+  return floodedTorqueIn(answer.verdicts) !== undefined;
 }
 
 /** The torque of the full bath in words, for the headline of a result that is starved. @param {Run} answer */
 export function inHeadline(answer) {
   if (!isStarved(answer)) return "";
-  return ` Starved of oil: in a full bath the friction torque is ${units.formatted("screw_torque", floodedTorque(answer))}.`;
+  return ` Starved of oil: in a full bath the friction torque is ${units.formatted("screw_torque", floodedTorqueIn(answer.verdicts))}.`;
 }
 
 /** True where the button has filled the bath of the current design. */

@@ -3,11 +3,12 @@
 import * as parts from "./chart_parts.js";
 import { hide } from "./chart_place.js";
 import { element } from "./dom.js";
-import { FLOODED, fullBath, linesByValidity, OUTSIDE, outside, pointAt } from "./figure_parts.js";
+import { linesByValidity, OUTSIDE, outside, pointAt } from "./figure_parts.js";
 import { yesOrNo } from "./figure_words.js";
 import { draw } from "./plot.js";
 import { data, greatestPressure, leastFilm } from "./results.js";
 import { extent } from "./scale.js";
+import { FLOODED, fullBath } from "./starvation.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./figure.js").Mark} Mark */

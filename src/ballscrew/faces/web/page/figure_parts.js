@@ -1,4 +1,4 @@
-// Marks that many figures have: the operating point, where the model does not hold, and the torque in a full bath of oil.
+// Marks that many figures have: the operating point, and where the model does not hold.
 
 /** @typedef {import("./figure.js").Curve} Curve */
 /** @typedef {import("./figure.js").Outside} Outside */
@@ -6,10 +6,6 @@
 /** @typedef {import("./figure.js").Values} Values */
 
 export const OUTSIDE = "outside the model's validity";
-/** The torque in a full bath of oil among the outputs, and the input of a module with which it has that bath. */
-export const FLOODED = "flooded_torque";
-export const REPLENISHMENT = "inlet.replenishment_constant";
-export const FULL_BATH = { [REPLENISHMENT]: 0 };
 
 /**
  * The operating point: a diamond in front of the curves.
@@ -48,9 +44,4 @@ export function linesByValidity(x, y, valid, name, colour, style = "line") {
   const solid = { kind: "curve", name, x, y: inside, colour, style };
   if (valid.every(Boolean)) return [solid];
   return [solid, { kind: "curve", name: OUTSIDE, x, y: beyond, colour, style: "dotted", width: 1.2, isQuiet: true }];
-}
-
-/** The torque in a full bath of oil beside that of a screw that is starved. @param {Values} x @param {Values} y @returns {Curve} */
-export function fullBath(x, y) {
-  return { kind: "curve", name: "in a full bath of oil", x, y, colour: "ink", style: "dashed" };
 }

@@ -1,8 +1,8 @@
 // What is shown while something moves: numbers and curves of the module in the browser, in the form of the answers that
 // the server sends when it rests.
 
-import { FLOODED, FULL_BATH } from "./figure_parts.js";
 import { localEngine, pointOf, pointsOf } from "./local_engine.js";
+import { FLOODED, FULL_BATH } from "./starvation.js";
 
 /** @typedef {import("./local_engine.js").Values} Values */
 /** @typedef {import("./local_engine.js").Found} Found */
