@@ -20,7 +20,7 @@ import numpy as np
 
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.uncertainty import bands
-from ballscrew.faces.site import banding, kinds
+from ballscrew.faces.page import banding, kinds
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.band.compute import alternatives, of_makers
 

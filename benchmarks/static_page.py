@@ -29,11 +29,11 @@ from ballscrew.exports.wasm_modules import (
     oils,
     outputs_of,
 )
-from ballscrew.faces.site import kinds
-from ballscrew.faces.site.banding import module_of_banding
-from ballscrew.faces.site.contents import contents
-from ballscrew.faces.site.judging import Judging, module_of_judging
-from ballscrew.faces.site.modules import inputs_of_module, varying_of
+from ballscrew.faces.page import kinds
+from ballscrew.faces.page.banding import module_of_banding
+from ballscrew.faces.page.contents import contents
+from ballscrew.faces.page.judging import Judging, module_of_judging
+from ballscrew.faces.page.modules import inputs_of_module, varying_of
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 from support.modules_in_node import evaluated

@@ -31,7 +31,7 @@ def written(app: Any, error: Exception | None) -> None:
     """Write the page where the others are, once they are there; not again before a source is newer than it."""
     folder = Path(app.outdir) / "page"
     if error is None and app.builder.format == "html" and not _is_newer_than_sources(folder / "index.html"):
-        from ballscrew.faces.site import site  # loads all of the program
+        from ballscrew.faces.page import site  # loads all of the program
 
         site.write(folder, site.site(MODELS, NUTS))
 

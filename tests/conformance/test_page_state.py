@@ -17,14 +17,17 @@ import ballscrew
 HOLDERS = {
     "store.js store": "the state of the page: what somebody has",
     "answers.js answers": "what the server has answered to it, and the requests under way",
-    "cards.js PLACES": "the scripts of the cards that were loaded",
+    "band_worker.js known": "the contents of the page, sent once",
+    "band_worker.js modules": "modules that it was sent, by their files",
+    "band_worker.js wanted": "bands that are wanted still",
+    "cards.js places": "the cards, and which of them were set up",
     "dom.js listening": "elements with listeners, which stand as they were made",
     "designs.js leads": "leads that the server has computed, by screw: the same for the same screw",
     "designs.js starts": "cases to start from, as the server has them: the same for the same name",
     "history.js entries": "the place in the history of the browser",
     "hot_and_cold.js hotAndCold": "what the curves cold and hot are computed of, and the request under way",
     "keeping.js keeping": "the entry of this tab in the storage of the browser",
-    "local_engine.js compiled": "modules that were compiled, by their files: the same for the same file",
+    "embedded.js compiled": "modules that were compiled, by their files: the same for the same file",
     "local_engine.js localEngine": "the module of the case on the page, and what is known of it",
     "long_work.js list": "the place of the lines of jobs",
     "long_work.js slow": "addresses whose requests took too long",
@@ -133,7 +136,7 @@ def injected(source: str) -> list[str]:
 def modules() -> dict[str, str]:
     """The modules of the page by their names, with their text."""
     (folder,) = ballscrew.__path__
-    page = Path(folder) / "faces" / "web" / "page"
+    page = Path(folder) / "faces" / "page"
     return {path.relative_to(page).as_posix(): path.read_text(encoding="utf-8") for path in sorted(page.rglob("*.js"))}
 
 

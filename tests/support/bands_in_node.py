@@ -9,7 +9,7 @@ import numpy as np
 
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.engine.uncertainty import bands
-from ballscrew.faces.site import kinds
+from ballscrew.faces.page import kinds
 from ballscrew.questions.band.compute import of_makers
 from support.judged_in_node import JudgedPage, case_at
 from support.modules_in_node import ENGINE, PAGE
@@ -25,8 +25,8 @@ class BandsPage(JudgedPage):
 
     def question(self, start, structure, speeds=(), **changes):
         """What the page asks at a start, with changes."""
-        tables = self.contents["starts"][start]
-        oil = {"grade": tables["grade"] or "", "temperature": tables["temperature"] or 313.15}
+        lubricant = kinds.case_of(start, *structure).lubricant
+        oil = {"grade": lubricant.grade or "", "temperature": lubricant.temperature or 313.15}
         inputs = self.inputs(start, structure, **changes)
         chosen = {"structure": "/".join(structure), "start": start, "kept": list(changes)}
         return {**chosen, "inputs": inputs, **oil, "speeds": list(speeds)}

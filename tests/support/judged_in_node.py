@@ -5,7 +5,7 @@ import json
 import subprocess
 from pathlib import Path
 
-from ballscrew.faces.site import kinds
+from ballscrew.faces.page import kinds
 from support.modules_in_node import PAGE, Modules
 from support.node import node
 

@@ -8,14 +8,14 @@ import numpy as np
 
 import ballscrew
 from ballscrew.exports.wasm_modules import module_of_oils, module_of_solver, oils
-from ballscrew.faces.site import kinds, modules
-from ballscrew.faces.site.banding import module_of_banding
-from ballscrew.faces.site.contents import contents
-from ballscrew.faces.site.judging import module_of_judging
+from ballscrew.faces.page import kinds, modules
+from ballscrew.faces.page.banding import module_of_banding
+from ballscrew.faces.page.contents import contents
+from ballscrew.faces.page.judging import module_of_judging
 from support.node import node
 
-PAGE = Path(ballscrew.__file__).parent / "faces" / "site" / "page"
-ENGINE = Path(ballscrew.__file__).parent / "faces" / "web" / "page" / "engine.js"
+PAGE = Path(ballscrew.__file__).parent / "faces" / "page"
+ENGINE = Path(ballscrew.__file__).parent / "faces" / "page" / "engine.js"
 SCRIPT = Path(__file__).with_name("node_engine.mjs")
 
 

@@ -1,4 +1,4 @@
-// The bands of the static page in node: those of cases in a file, and the milliseconds that they took.
+// The bands of the page in node: those of cases in a file, and the milliseconds that they took.
 import { readFile, writeFile } from "node:fs/promises";
 import { pathToFileURL } from "node:url";
 
@@ -15,9 +15,11 @@ for (const question of questions) {
   if (makers.length) await engine.load(calibratedOf(question));
   const began = performance.now();
   const found = { names: uncertainIn(contents.bands, question)?.map(({ name }) => name), makers, steps: 0 };
-  for (const band of bandsOf(engine, contents.bands, question, step)) {
-    if (band) found[band.kind] = { ...band, milliseconds: performance.now() - began };
-    else found.steps += 1;
+  for (const kind of ["point", "fan"]) {
+    for (const band of bandsOf(engine, contents.bands, { ...question, kind }, step)) {
+      if (band) found[kind] = { ...band, milliseconds: performance.now() - began };
+      else found.steps += 1;
+    }
   }
   answers.push(found);
 }

@@ -1,11 +1,11 @@
-// What the static page judges and draws at points of a file: values, masks, records and texts, written to another one.
+// What the page judges and draws at points of a file: values, masks, records and texts, written to another one.
 import { readFile, writeFile } from "node:fs/promises";
 import { pathToFileURL } from "node:url";
 
 const [page, folder] = process.argv.slice(2);
-const { Engine } = await import(pathToFileURL(`${page}/../../web/page/engine.js`));
+const { Engine } = await import(pathToFileURL(`${page}/engine.js`));
 const { judgedAt, recordsOf, textOf } = await import(pathToFileURL(`${page}/judgements.js`));
-const { ballAt } = await import(pathToFileURL(`${page}/ball.js`));
+const { ballAt } = await import(pathToFileURL(`${page}/ball_drawing.js`));
 const { contents, points } = JSON.parse(await readFile(`${folder}/points.json`, "utf8"));
 const engine = new Engine(contents, async (file) => WebAssembly.compile(await readFile(`${folder}/${file}`)));
 const written = (found) => Object.fromEntries(Object.entries(found).map(([name, value]) => [name, String(value)]));

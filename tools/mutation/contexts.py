@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import time
 from collections import defaultdict
 from collections.abc import Generator, Mapping, Sequence
@@ -18,6 +19,8 @@ from typing import Any
 
 import coverage
 import pytest
+
+from ballscrew.faces.page import bundle
 
 _SECONDS: dict[str, float] = defaultdict(float)
 #: Tests of each fixture that they share.
@@ -28,9 +31,10 @@ _CONTEXTS: list[str] = []
 _SCRIPTS: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
 #: Pages that were opened, with their counters.
 _COUNTERS: list[tuple[Any, Any]] = []
-_ADDRESS = "/page/"
-_ROOM = "faces/web/page"
-_PAGE = Path(__file__).parents[2] / "src" / "ballscrew" / _ROOM
+_ADDRESS = re.compile(r"/page-[0-9a-f]{16}\.js$")
+_ROOM = "faces/page"
+#: Where a module begins in the script of the page: its lines are those of its file.
+_MODULE = re.compile(r'ofModule\["(.+)"\] = \(\(\) => \{$')
 
 
 def pytest_configure() -> None:
@@ -112,12 +116,18 @@ def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
 
 
 def _add(counter: Any, test: str) -> None:
+    lines = bundle.script().split("\n")
     for script in counter.send("Profiler.takePreciseCoverage")["result"]:
-        name = script["url"].partition(_ADDRESS)[2].partition("?")[0]
-        if name.endswith(".js"):
-            text = (_PAGE / name).read_text(encoding="utf-8")
-            for line in reached(text, [part for function in script["functions"] for part in function["ranges"]]):
-                _SCRIPTS[f"{_ROOM}/{name}"][line].add(test)
+        if not _ADDRESS.search(script["url"]):
+            continue
+        ranges = [part for function in script["functions"] for part in function["ranges"]]
+        found = reached("\n".join(lines), ranges)
+        name, first = "", 0
+        for place, text in enumerate(lines, start=1):
+            if module := _MODULE.match(text):
+                name, first = module[1], place
+            elif name and place in found:
+                _SCRIPTS[f"{_ROOM}/{name}"][place - first].add(test)
 
 
 def reached(text: str, ranges: Sequence[Mapping[str, int]]) -> set[int]:

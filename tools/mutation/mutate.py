@@ -72,8 +72,8 @@ ROOMS = {
     "cases": Room(("cases",), ("cases",)),
     # the tests in a browser
     "page": Room(
-        ("faces/web/page",),
-        ("faces/web/test_texts.py",
+        ("faces/page",),
+        ("faces/page/test_site_page.py",
          *(f"faces/web/{file.name}" for file in sorted((ROOT / "tests" / "faces" / "web").glob("test_page*.py")))),
     ),
 }  # fmt: skip

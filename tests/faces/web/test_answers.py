@@ -13,9 +13,9 @@ STRICT = ("content-security-policy", "x-content-type-options", "referrer-policy"
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("path", "status"),
-    [("/", 200), ("/api", 200), ("/page/main.js", 200), ("/viewer/swagger-ui.css", 200),
+    [("/", 200), ("/api", 200), ("/style.css", 200), ("/viewer/swagger-ui.css", 200),
      ("/api/v1/schema", 200), ("/api/v1/openapi.json", 200), ("/none", 404), ("/api/v1/catalogue/none", 404),
-     ("/api/v1/run", 405), ("/api/v1/schema?x=1", 422), ("/page/", 404), ("/page", 404)],
+     ("/api/v1/run", 405), ("/api/v1/schema?x=1", 422), ("/main.js", 404), ("/page.js", 404)],
 )  # fmt: skip
 def test_headers(server, path, status):
     found = server.client.get(path)
@@ -27,7 +27,7 @@ def test_headers(server, path, status):
     assert found.headers["cache-control"] == ("no-store" if "/v1/" in path or status >= 400 else "no-cache")
 
 
-@pytest.mark.parametrize("path", ["/", "/page/main.js", "/viewer/swagger-ui-bundle.js"])
+@pytest.mark.parametrize("path", ["/", "/style.css", "/viewer/swagger-ui-bundle.js"])
 def test_files_are_sent_once(server, path):
     """A browser keeps them, and asks whether they are still the same."""
     tag = server.client.get(path).headers["etag"]
@@ -37,7 +37,7 @@ def test_files_are_sent_once(server, path):
     assert server.client.get(path, headers={"If-None-Match": '"another"'}).status_code == 200
 
 
-@pytest.mark.parametrize("path", ["/", "/page/main.js"])
+@pytest.mark.parametrize("path", ["/", "/style.css"])
 def test_head_of_files(server, path):
     found, whole = server.client.head(path), server.client.get(path)
     assert (found.status_code, found.content) == (200, b"")
@@ -115,8 +115,6 @@ def test_pages_are_served_from_here(server, page):
         seen.add(address)
         found = server.client.get(address)
         assert found.status_code == 200, address
-        if address.endswith(".js") and "/page/" in address:
-            pending += [urljoin(address, name) for name in re.findall(r"""from "(\.[^"]+)";""", found.text)]
         if address.endswith(".css"):
             links = re.findall(r"url\(([^)]+)\)", found.text)
             assert all(link.strip("\"'").startswith(("data:", "#")) for link in links)
@@ -128,7 +126,7 @@ def test_what_is_described_is_there(server):
     """The viewer shows this document, and each of its addresses is one that answers."""
     described = server.get("openapi.json").json()
     assert described["openapi"].startswith("3.1")
-    assert re.search(r'url: "(/[^"]+)"', server.client.get("/page/api.js").text)[1] == "/api/v1/openapi.json"
+    assert re.search(r'url: "(/[^"]+)"', server.client.get("/api.js").text)[1] == "/api/v1/openapi.json"
     for path, methods in described["paths"].items():
         for method in methods:
             assert server.client.request(method, path.replace("{name}", "x")).status_code != 405

@@ -292,7 +292,7 @@ def test_a_band_of_very_many_balls_has_fewer_samples(server, elastic):
 
 @pytest.mark.parametrize("name", ["..%2f..%2fetc%2fpasswd", "%00", "%ff", "<script>", "a" * 5000, "%F0%9F%98%80"])
 def test_names_in_addresses(server, name):
-    for path in (f"/api/v1/catalogue/{name}", f"/page/{name}", f"/viewer/{name}"):
+    for path in (f"/api/v1/catalogue/{name}", f"/page-{name}.js", f"/viewer/{name}"):
         found = server.client.get(path)
         assert found.status_code == 404
         assert found.headers["content-type"] == "application/problem+json"

@@ -4,7 +4,7 @@ import re
 from importlib import resources
 from pathlib import Path
 
-PAGE = Path(str(resources.files("ballscrew.faces.web").joinpath("page")))
+PAGE = Path(str(resources.files("ballscrew.faces.page")))
 SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in PAGE.rglob("*.js")}
 
 

@@ -235,7 +235,7 @@ def test_letters_of_charts_and_drawing_can_be_read(visit, scheme):
     back = here.page.evaluate("getComputedStyle(document.querySelector('section')).backgroundColor")
     fills = here.page.evaluate(
         """async () => {
-          const { ofScreen } = await import("/page/palette.js");
+          const { ofScreen } = ballscrewModules["palette.js"];
           const drawing = [...document.querySelectorAll("#drawing text")].filter((one) => one.textContent);
           const rgb = (hex) => `rgb(${[1, 3, 5].map((start) => parseInt(hex.slice(start, start + 2), 16)).join(", ")})`;
           const charts = ["ink", "soft", "accent", "second"].map((name) => rgb(ofScreen()[name]));

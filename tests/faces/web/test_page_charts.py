@@ -160,8 +160,8 @@ FIGURE = """
   ] };
 """
 READ = f"""async (places) => {{
-  const {{ readingAt }} = await import("/page/figure_words.js");
-  const {{ Scale }} = await import("/page/scale.js");
+  const {{ readingAt }} = ballscrewModules["figure_words.js"];
+  const {{ Scale }} = ballscrewModules["scale.js"];
   {FIGURE}
   const box = {{ left: 0, top: 0, right: 400, bottom: 100 }};
   const frame = {{ box, x: new Scale(0, 4, 0, 400), y: new Scale(0, 40, 100, 0) }};
@@ -172,9 +172,9 @@ READ = f"""async (places) => {{
 }}"""
 #: The length of the picture of a small part of it.
 PART = f"""async (range) => {{
-  const {{ drawFigure }} = await import("/page/figure.js");
-  const {{ PAPER }} = await import("/page/palette.js");
-  const {{ SvgPen }} = await import("/page/pen.js");
+  const {{ drawFigure }} = ballscrewModules["figure.js"];
+  const {{ PAPER }} = ballscrewModules["palette.js"];
+  const {{ SvgPen }} = ballscrewModules["pen.js"];
   {FIGURE}
   const pen = new SvgPen(400, 200);
   drawFigure(pen, figure, {{ width: 400, height: 200 }}, PAPER, {{ x: range }});
@@ -218,7 +218,7 @@ def test_answers_that_are_kept_are_bounded_by_their_size(visit):
         .open()
         .page.evaluate(
             """async () => {
-          const { ask } = await import("/page/server.js");
+          const { ask } = ballscrewModules["server.js"];
           const asked = [];
           const one = (n, size) => ask("run", { n }, new AbortController().signal, async () => {
             asked.push(n);

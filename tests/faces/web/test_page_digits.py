@@ -10,7 +10,7 @@ from ballscrew.basis.units import to_digits
 pytestmark = pytest.mark.slow
 
 ENDS = """async (pairs) => {
-  const { ends, digits } = await import("/page/units.js");
+  const { ends, digits } = ballscrewModules["units.js"];
   return pairs.map(([low, high]) => [digits(low), ...ends(low, high)]);
 }"""
 
@@ -28,7 +28,7 @@ def test_numbers_are_those_of_the_command_line(visit):
 
 #: Just below a power of ten a step of the end is one of the smaller decade.
 ROUNDED = """async (pairs) => {
-  const { digits } = await import("/page/units.js");
+  const { digits } = ballscrewModules["units.js"];
   return pairs.map(([number, toward]) => digits(number, 4, toward));
 }"""
 NEAR_POWERS = [

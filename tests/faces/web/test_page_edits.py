@@ -62,7 +62,7 @@ def test_undo_takes_one_edit_back(visit):
 
 
 EDITS = """async (edits) => {
-  const { entries } = await import("/page/history.js");
+  const { entries } = ballscrewModules["history.js"];
   const address = location.hash;
   const one = ([value, path]) => entries.edit(value ? `${address}&x=${value}` : address, path);
   const place = () => history.state?.place ?? 0;
@@ -260,7 +260,7 @@ def test_a_warning_is_said_once(visit):
 
 #: The duty of the second edit is answered long after that of the third one.
 LATE = """async () => {
-  const { answers } = await import("/page/answers.js");
+  const { answers } = ballscrewModules["answers.js"];
   const found = answers.current().whole.case;
   const of = (mass) => ({ ...found, axis: { ...found.axis, mass } });
   const { fetch } = window;

@@ -121,8 +121,8 @@ def test_a_curve_that_takes_too_long_goes_on_as_a_job(visit):
 
 
 DUPLICATED = """async () => {
-  const jobs = await import("/page/jobs.js");
-  const { keeping } = await import("/page/keeping.js");
+  const jobs = ballscrewModules["jobs.js"];
+  const { keeping } = ballscrewModules["keeping.js"];
   const asked = [];
   const { fetch } = window;
   window.fetch = async (address, { method = "GET" }) => {

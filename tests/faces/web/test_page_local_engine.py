@@ -9,10 +9,10 @@ import pytest
 
 from ballscrew.compiler.kernels import kernel
 from ballscrew.compiler.tracing.tape import CannotRecordError
+from ballscrew.faces.page.starts import starts
 from ballscrew.faces.web import modules
 from ballscrew.faces.web.module_api import _answer
 from ballscrew.faces.web.modules import Modules
-from ballscrew.faces.web.starts import starts
 
 from .drawn_charts import DRAWN, POINT
 

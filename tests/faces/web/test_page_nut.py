@@ -141,6 +141,6 @@ def test_a_screw_without_a_nut(visit, server):
 
 def test_colours_are_those_of_the_figures():
     (folder,) = ballscrew.__path__
-    script = (Path(folder) / "faces" / "web" / "page" / "ball_places.js").read_text(encoding="utf-8")
+    script = (Path(folder) / "faces" / "page" / "ball_places.js").read_text(encoding="utf-8")
     found = re.search(r"^export const COLOURS = \[(.*)\];$", script, re.MULTILINE)
     assert re.findall("#[0-9A-F]{6}", found[1]) == list(GROWING)

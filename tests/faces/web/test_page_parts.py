@@ -41,7 +41,7 @@ def paper_checks(server, paper):
 
 #: The panel of checks over a cycle: its class, and its sentence.
 PANEL = """async (checks) => {
-  const { ofCycle, panel } = await import("/page/checks.js");
+  const { ofCycle, panel } = ballscrewModules["checks.js"];
   const [words] = panel(ofCycle({ checks }), "checks");
   return [words.className, words.textContent];
 }"""
@@ -69,7 +69,7 @@ def test_the_sentence_of_all_checks(go, paper_checks, first, second, tone, said)
 
 #: Other fields after one has become a text, in a design that gives a play of the nut.
 CONSEQUENCES = """async (changes) => {
-  const { consequences } = await import("/page/consequences.js");
+  const { consequences } = ballscrewModules["consequences.js"];
   const nuts = {
     single: { fields: ["axial_play"], usual_preload: null },
     double: { fields: ["preload", "oversize"], usual_preload: "7 %" },
@@ -90,7 +90,7 @@ def test_only_a_kind_of_nut_changes_the_fields_of_the_nut(go):
 def test_a_plain_number_has_no_unit(go):
     found = go().page.evaluate(
         """async () => {
-          const { unitOf, heading } = await import("/page/units.js");
+          const { unitOf, heading } = ballscrewModules["units.js"];
           return [...["efficiency", "screw_torque", "preload_drag", "of no result"].map(unitOf),
             heading("efficiency", "efficiency"), heading("screw_torque", "torque")];
         }"""
@@ -105,14 +105,14 @@ def test_the_kind_of_a_segment(go):
         "stretch": [{"duration": "1 s", "speed": "5 m/min"}, {"duration": "1 s", "speed": "-0.1 m/s"}],
         "rest": [{"duration": "2 s"}, {"duration": "2 s", "speed": "0 m/min"}, {}],
     }
-    kinds = "async (all) => { const { kindOf } = await import('/page/cards/segments.js'); return all.map(kindOf); }"
+    kinds = "async (all) => { const { kindOf } = ballscrewModules['cards/segments.js']; return all.map(kindOf); }"
     for kind, of_kind in segments.items():
         assert go().page.evaluate(kinds, of_kind) == [kind] * len(of_kind)
 
 
 #: The entries of a tab whose own is open elsewhere, and of one whose browser refuses locks; null where none is found.
 ENTRIES = """async () => {
-  const { keeping } = await import("/page/keeping.js");
+  const { keeping } = ballscrewModules["keeping.js"];
   const late = () => new Promise((done) => setTimeout(done, 5000, null));
   const begun = () => Promise.race([keeping.begin().then(() => keeping.own()), late()]);
   const first = keeping.own();
@@ -138,7 +138,7 @@ def test_what_is_kept_is_listed_when_it_is_kept(go):
     """It is kept once typing rests, when nothing else changes on the page."""
     here = go("#A=paper&band=0&view=handover.files")
     here.page.wait_for_selector("#kept-list p")
-    here.page.evaluate("import('/page/keeping.js').then(({ keeping }) => keeping.forget([keeping.own()]))")
+    here.page.evaluate("() => { const { keeping } = ballscrewModules['keeping.js']; keeping.forget([keeping.own()]); }")
     before = here.page.locator("#kept-list em").count()
     here.type("operation.axial_load", "1234")
     here.page.wait_for_selector("#kept-list em")
@@ -211,7 +211,7 @@ def test_each_band_is_asked_for_once_and_none_of_a_design_at_fault(go):
 
 #: One body asked for twice at once, by somebody who leaves and by somebody who waits.
 LEFT = """async (body) => {
-  const { ask } = await import("/page/server.js");
+  const { ask } = ballscrewModules["server.js"];
   const { fetch } = window;
   let asked = 0;
   window.fetch = (...given) => {

@@ -82,7 +82,7 @@ SHEET = {
     ],
 }  # fmt: skip
 SHOW = """async (sheet) => {
-  const { sheetPlace } = await import("/page/sheet.js");
+  const { sheetPlace } = ballscrewModules["sheet.js"];
   globalThis.made ??= sheetPlace("made");
   document.querySelector("#results").prepend(globalThis.made.place);
   globalThis.made.show(sheet);

@@ -4,7 +4,7 @@ from importlib import resources
 
 import pytest
 
-from ballscrew.faces.web.starts import logs, starts
+from ballscrew.faces.page.starts import logs, starts
 from support.commands import ROOT
 
 

@@ -15,10 +15,10 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.faces.cli import main
 from ballscrew.faces.cli.options import Output, with_flags
+from ballscrew.faces.page.vocabulary import OPTIONS, vocabulary
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web import question_api
 from ballscrew.faces.web.bodies import BandBody, FitBody, HandOverBody, ReportBody, SweepBody
-from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.check.options import CheckOptions

@@ -151,7 +151,7 @@ def site(
     The folder can be put on any web server; a single file opens by a double click. To write it takes the compiler
     of the extra "fast"; to use it takes nothing.
     """
-    from ballscrew.faces.site import site as pages
+    from ballscrew.faces.page import site as pages
 
     pages.check_place(out, single=single)
     with progress("modules") as done:

@@ -20,6 +20,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.screw_tables import catalogue as rows
 from ballscrew.cases.screw_tables.own_nut import own_nut_of
+from ballscrew.faces.page import starts, vocabulary
 from ballscrew.faces.report.heading import Heading
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web import (
@@ -31,8 +32,6 @@ from ballscrew.faces.web import (
     module_api,
     openapi,
     question_api,
-    starts,
-    vocabulary,
 )
 from ballscrew.faces.web.bodies import (
     BandBody,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.faces.web.vocabulary import vocabulary
+from ballscrew.faces.page.vocabulary import vocabulary
 from ballscrew.physics.sizing.catalogue import catalogue
 
 #: Logs to try, made by the model with noise of 0.2 %: of the paper's screw, and of it with a preload of 3 kN and 2 kN.

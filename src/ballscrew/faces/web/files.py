@@ -7,22 +7,31 @@ import gzip
 import hashlib
 import importlib.util
 import os
-from importlib import resources
+from collections.abc import Mapping
 from pathlib import Path
 
-from fastapi import FastAPI, Request
+from fastapi import FastAPI, HTTPException, Request
 from starlette.datastructures import Headers
 from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 from starlette.types import Scope
 
+from ballscrew.faces.page import bundle, site
 from ballscrew.faces.web.endpoint_parts import takes_gzip
 
 #: Browsers keep files, and ask each time whether they have changed.
 _CACHE = "no-cache"
 #: They keep a file for good whose address has the digest of its content.
 FOR_GOOD = "public, max-age=31536000, immutable"
-_VIEWER = "api.html"
+#: What files are, by the ends of their names.
+_MEDIA: Mapping[str, str] = {
+    ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml",
+    ".webmanifest": "application/manifest+json",
+}  # fmt: skip
+#: Files beside those of the page, by their names: the viewer of the API.
+_OF_VIEWER: Mapping[str, str] = {"api": "api.html", "api.js": "api.js"}
+#: Plain, compressed, and the tag for the caches of browsers.
+_Sent = tuple[bytes, bytes, str]
 #: Endings of files that are text, which is much shorter when it is compressed.
 _TEXTS = (".js", ".css", ".html", ".svg", ".json")
 
@@ -53,15 +62,8 @@ class _Folder(StaticFiles):
 
 def add_to(app: FastAPI) -> None:
     """Add the addresses of all files."""
-    page = _Folder(directory=Path(str(resources.files("ballscrew.faces.web").joinpath("page"))))
     viewer = _Folder(directory=_folder_of("fastapi_offline", "static"))
-    app.mount("/page", page)
     app.mount("/viewer", viewer)
-
-    async def send_viewer(request: Request) -> Response:
-        return await page.get_response(_VIEWER, request.scope)
-
-    app.add_api_route("/api", send_viewer, methods=["GET", "HEAD"], include_in_schema=False)
 
     def sent(
         request: Request, content: bytes, packed: bytes, tag: str, headers: dict[str, str], media: str
@@ -75,23 +77,26 @@ def add_to(app: FastAPI) -> None:
             sent.headers.update({"Content-Encoding": "gzip", "ETag": f'W/"{tag}"'})
         return sent
 
-    async def send_page(request: Request) -> Response:
-        headers = {"Cache-Control": _CACHE, "Vary": "Accept-Encoding"}
-        return sent(request, *_page(), headers, "text/html")
+    async def send_file(request: Request, name: str = "") -> Response:
+        files = _files()
+        if name not in files:  # also those of another version, which have its digest in their names
+            raise HTTPException(404)
+        media = _MEDIA[".html" if name in ("", "api") else Path(name).suffix]
+        return sent(request, *files[name], {"Cache-Control": _CACHE, "Vary": "Accept-Encoding"}, media)
 
-    app.add_api_route("/", send_page, methods=["GET", "HEAD"], include_in_schema=False)
+    for address in ("/", "/{name}"):
+        app.add_api_route(address, send_file, methods=["GET", "HEAD"], include_in_schema=False)
 
 
 @functools.cache
-def _page() -> tuple[bytes, bytes, str]:
-    """The page as it is sent, plain and compressed, and its tag."""
-    text = resources.files("ballscrew.faces.web").joinpath("page", "index.html").read_text(encoding="utf-8")
-    return _tagged(text)
+def _files() -> Mapping[str, _Sent]:
+    """The files of the page and of the viewer as they are sent, by their names."""
+    viewer = {name: bundle.text_of(file).encode() for name, file in _OF_VIEWER.items()}
+    return {name: _tagged(content) for name, content in {**site.served(), **viewer}.items()}
 
 
-def _tagged(text: str) -> tuple[bytes, bytes, str]:
+def _tagged(content: bytes) -> _Sent:
     """A text as it is sent, plain and compressed, and its tag for the caches of browsers."""
-    content = text.encode()
     return content, gzip.compress(content, 9, mtime=0), hashlib.sha256(content).hexdigest()[:32]
 
 

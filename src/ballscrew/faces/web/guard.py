@@ -9,16 +9,14 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ballscrew.basis.errors import Fault
+from ballscrew.faces.page.bundle import policy
 from ballscrew.faces.web import problems
 
 #: Names of the machine that the server runs on: it answers to these, unless told otherwise.
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 #: Headers of every response: browsers run and show only files of this server; of code only WebAssembly may be compiled.
 HEADERS: Mapping[str, str] = {
-    "Content-Security-Policy": (
-        "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; "
-        "connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-    ),
+    "Content-Security-Policy": f"{policy()}; font-src 'self'; frame-ancestors 'none'",
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",

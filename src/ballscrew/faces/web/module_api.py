@@ -25,7 +25,7 @@ from ballscrew.faces.web.modules import Modules, NotMadeError
 from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE
 from ballscrew.physics.components.nut import Bodies
-from ballscrew.questions.curves import compute as curves
+from ballscrew.questions.curves.compute import axes_around
 from ballscrew.questions.shared.answer_parts import Closed, Number
 from ballscrew.questions.shared.answer_parts import Tables as AnyTables
 
@@ -137,7 +137,7 @@ def _answer(modules: Modules, tables: Tables) -> dict[str, Any]:
         "oil": None if grade is None or of_oils is None else _oil(of_oils, grade),
         "values": _values(case, subject),
         "places": dict(_places(case, subject, tables, grade)),
-        "axes": _axes(case.nut is not None),
+        "axes": axes_around(is_nut=case.nut is not None),
     }
 
 
@@ -197,21 +197,3 @@ def _at(tables: Mapping[str, Any], path: str) -> Any:
     for key in path.split("."):
         result = result.get(key) if isinstance(result, dict) else None
     return result
-
-
-def _axes(is_nut: bool) -> dict[str, Any]:
-    """The axes of the curves around an operating point, as the answers have them."""
-    side = curves.MAP_OF_NUT if is_nut else curves.MAP
-    loads = curves.CURVE_OF_NUT if is_nut else curves.CURVE
-    return {
-        "over_speed": {"screw_speed": _axis(curves.OVER_SPEED, curves.CURVE, curves.OF_SIGN, curves.SPEED)},
-        "over_load": {"axial_load": _axis(curves.OVER_LOAD, loads, min(loads, curves.OF_SIGN), curves.LOAD)},
-        "over_both": {
-            "axial_load": _axis(curves.OVER_BOTH, side, side // 2, curves.LOAD),
-            "screw_speed": _axis(curves.OVER_BOTH, side, side // 2, curves.SPEED),
-        },
-    }
-
-
-def _axis(share: float, points: int, points_of_sign: int, far: float) -> dict[str, Any]:
-    return {"share": share, "points": points, "points_of_sign": points_of_sign, "far": far}

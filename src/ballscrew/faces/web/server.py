@@ -17,7 +17,8 @@ from starlette.types import ASGIApp
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.version import __version__
 from ballscrew.engine.evaluation import recordings
-from ballscrew.faces.web import api, bodies, files, memory, openapi, problems, question_api, vocabulary
+from ballscrew.faces.page import vocabulary
+from ballscrew.faces.web import api, bodies, files, memory, openapi, problems, question_api
 from ballscrew.faces.web.bodies import case_of
 from ballscrew.faces.web.body_examples import examples
 from ballscrew.faces.web.guard import LOOPBACK, Guard

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ballscrew.questions.run.compute import Run
 
@@ -87,3 +87,23 @@ def _axis(far: float, share: float, count: int, unit: str) -> str:
     sizes = [first + place * (end - first) / (count - 1) for place in range(count)]
     values = [float(f"{size:.{_DIGITS}g}") for size in sizes]
     return f"{', '.join(map(repr, [*(-value for value in reversed(values)), *values] if far < 0 else values))} {unit}"
+
+
+def axes_around(*, is_nut: bool) -> dict[str, Any]:
+    """How the axes of the curves follow from an operating point, by the curve and the axis, for a page that draws them.
+
+    Each goes to twice the value there, or ``far`` where that is none, from the ``share`` of that end.
+    """
+    side, loads = (MAP_OF_NUT, CURVE_OF_NUT) if is_nut else (MAP, CURVE)
+    return {
+        "over_speed": {"screw_speed": _around(OVER_SPEED, CURVE, OF_SIGN, SPEED)},
+        "over_load": {"axial_load": _around(OVER_LOAD, loads, min(loads, OF_SIGN), LOAD)},
+        "over_both": {
+            "axial_load": _around(OVER_BOTH, side, side // 2, LOAD),
+            "screw_speed": _around(OVER_BOTH, side, side // 2, SPEED),
+        },
+    }
+
+
+def _around(share: float, points: int, points_of_sign: int, far: float) -> dict[str, Any]:
+    return {"share": share, "points": points, "points_of_sign": points_of_sign, "far": far}

@@ -1,0 +1,464 @@
+// The answers of a page without a server: numbers, curves, checks and bands of the modules in the browser, in the form in
+// which a server sends them. No formula stands here: what is computed is recorded from the model.
+
+import { ballAt, ballDrawing } from "./ball_drawing.js";
+import { Banding } from "./banding.js";
+import { makersIn, uncertainIn } from "./bands.js";
+import { read, tomlOf } from "./case_alone.js";
+import { axesAround } from "./case_values.js";
+import { moduleOf, site } from "./embedded.js";
+import { Engine } from "./engine.js";
+import { judgedAt, recordsOf, textOf } from "./judgements.js";
+import { Problem } from "./server.js";
+import { FLOODED, floodedTorqueIn, FULL_BATH, REPLENISHMENT } from "./starvation.js";
+import * as units from "./units.js";
+
+/** @typedef {import("./case_alone.js").CaseAlone} CaseAlone */
+/** @typedef {import("./engine.js").Found} Found */
+/** @typedef {Record<string, any>} Tables */
+/** @typedef {Record<string, number[]>} Axes */
+
+const TEMPERATURE = "temperature";
+const LOAD = "axial_load";
+const SPEED = "screw_speed";
+/** A cold start and a hot machine, K. */
+const [COLD, HOT] = [273.15, 353.15];
+/** Signs of load and speed of the quadrants, by what happens there. @type {[string, number, number][]} */
+const QUADRANTS = [
+  ["drives forward", 1, 1],
+  ["is back-driven in reverse", 1, -1],
+  ["drives in reverse", -1, -1],
+  ["is back-driven forward", -1, 1],
+];
+/** Results that only a nut has. */
+const OF_ROWS = ["contact_load", "rolling_share"];
+
+/** A number as an answer has it. @param {number | undefined} value */
+function plain(value) {
+  return value !== undefined && Number.isFinite(value) ? value : null;
+}
+
+class Alone {
+  contents;
+  #engine;
+  #banding;
+  /** Cases that were read and run, by their tables as JSON: that on the page, and those beside it. @type {Map<string, Promise<any>>} */
+  #runs = new Map();
+
+  /** @param {any} contents @param {string} worker */
+  constructor(contents, worker) {
+    this.contents = contents;
+    this.#engine = new Engine(contents, moduleOf);
+    this.#banding = new Banding(this.#engine, contents, { worker, moduleOf });
+  }
+
+  /**
+   * The answer of an address.
+   *
+   * @param {string} address
+   * @param {any} body
+   * @param {AbortSignal} [signal]
+   * @returns {Promise<Response>}
+   */
+  async answer(address, body, signal) {
+    const [name, of = ""] = address.split("/");
+    const { contents } = this;
+    if (name === "vocabulary" || name === "schema") return Response.json(contents[name]);
+    if (name === "catalogue" && contents.starts[decodeURIComponent(of)]) {
+      return Response.json({ case: contents.starts[decodeURIComponent(of)].case });
+    }
+    if (name === "toml") return new Response(tomlOf(body.case), { headers: { "Content-Type": "application/toml" } });
+    const asked = body?.case;
+    if (name === "run") return Response.json((await this.#ran(asked)).run);
+    if (name === "check") return Response.json((await this.#ran(asked)).check);
+    if (name === "drawing") {
+      const svg = await this.#drawing(asked);
+      return new Response(svg, { headers: { "Content-Type": "image/svg+xml" } });
+    }
+    if (name === "module") return Response.json(await this.#module(asked));
+    if (name === "band") return Response.json(await this.#band(asked, signal));
+    if (name === "sweep") return Response.json(await this.#sweep(body, signal));
+    throw new Problem({
+      title: "This page has no server: the program answers that. Save the case, and give it to ballscrew.",
+    });
+  }
+
+  /**
+   * The lines that answer a case and the designs beside it.
+   *
+   * @param {{ case: Tables, beside?: Tables[] }} body
+   * @returns {AsyncGenerator<any>}
+   */
+  async *lines({ case: tables, beside = [] }) {
+    const own = await this.#ran(tables);
+    yield { question: "run", place: 0, answer: own.run };
+    yield { question: "check", place: 0, answer: own.check };
+    const curves = this.#curves(own);
+    yield { question: "over_speed", place: 0, answer: curves.over_speed() };
+    for (const [place, other] of beside.entries()) {
+      try {
+        const { run, check } = await this.#ran(other);
+        yield { question: "run", place: place + 1, answer: run };
+        yield { question: "check", place: place + 1, answer: check };
+      } catch (error) {
+        if (!(error instanceof Problem)) throw error;
+        const { message: title, lines, faults } = error;
+        yield { question: "run", place: place + 1, problem: { title, lines, faults } };
+      }
+    }
+    if (curves.cold_and_hot) yield { question: "cold_and_hot", place: 0, answer: curves.cold_and_hot() };
+    yield { question: "over_both", place: 0, answer: curves.over_both() };
+    yield { question: "over_load", place: 0, answer: curves.over_load() };
+    yield { question: "drawing", place: 0, answer: { text: await this.#drawing(tables) } };
+  }
+
+  /** A case with its run and its checks. @param {Tables} tables */
+  #ran(tables) {
+    const key = JSON.stringify(tables);
+    const before = this.#runs.get(key);
+    if (before) return before;
+    const made = read(this.contents, this.#engine, tables).then((one) => this.#computed(one));
+    this.#runs.set(key, made);
+    made.catch(() => this.#runs.delete(key));
+    const [oldest] = this.#runs.keys();
+    if (this.#runs.size > this.contents.most_kept) this.#runs.delete(oldest);
+    return made;
+  }
+
+  /**
+   * The outputs at points.
+   *
+   * @param {CaseAlone} one
+   * @param {Record<string, number | ArrayLike<number>>} changes
+   * @param {number} count
+   */
+  #at(one, changes, count) {
+    return this.#engine.evaluate(one.structure, { ...one.inputs, ...changes }, count);
+  }
+
+  /** @param {CaseAlone} one */
+  #computed(one) {
+    const { contents } = this;
+    const { structure, start, given, listed, inputs } = one;
+    const point = { structure, start, inputs: { ...one.values, ...inputs }, given, listed };
+    const judged = judgedAt(this.#engine, contents, point);
+    const { verdicts, warnings, checks } = recordsOf(contents, judged);
+    const said = (/** @type {any[]} */ records) =>
+      records.map(({ message, ...record }) => ({ ...record, text: textOf(contents, message) }));
+    const { outputs } = judged.sources;
+    const model = structure.split("/")[0];
+    const run = {
+      inputs: inputsOf(contents, one),
+      results: this.#results(one, outputs),
+      verdicts: said(verdicts),
+      warnings: said(warnings),
+      checks: [],
+      provenance: { version: contents.version, model, references: contents.models[model].references },
+      words: { title: titleOf(one), verdicts: [], assumed: [], rigidity: [], rules: [] },
+    };
+    const lines = said(checks).map((record, place) => ({
+      ...record,
+      name: record.id.replace("check.", ""),
+      missing: record.holds === null ? (contents.judging.tables.checks[place].give ?? "") : "",
+    }));
+    const check = {
+      checks: lines,
+      judged: lines.filter(({ holds }) => holds !== null).length,
+      holds: lines.every(({ holds }) => holds === true),
+    };
+    if (one.kind !== "row") Object.assign(run, { loads: this.#loads(one, outputs) });
+    return { one, outputs, run, check, flooded: floodedTorqueIn(run.verdicts) ?? floodedTorqueIn(run.warnings) };
+  }
+
+  /**
+   * The results as a run has them: those of the contacts, the parts of the torque and the conditions in tables of their own.
+   *
+   * @param {CaseAlone} one
+   * @param {Record<string, number | null | undefined>} outputs
+   */
+  #results(one, outputs) {
+    const { race_names: races, results } = this.contents;
+    /** @type {Tables} */
+    const found = { contributions: {}, validity: {}, screw: {}, nut: {} };
+    for (const [name, value] of Object.entries(outputs)) {
+      const [first, ...rest] = name.split("_");
+      const inner = rest.join("_");
+      if (first === "contribution") found.contributions[inner] = plain(value ?? undefined);
+      else if (first === "validity") found.validity[inner] = value === 1;
+      else if ((first === "screw" || first === "nut") && races.includes(inner))
+        found[first][inner] = plain(value ?? undefined);
+      else if (Object.hasOwn(results, name)) found[name] = plain(value ?? undefined);
+    }
+    found.valid = outputs.valid === 1;
+    found.self_locking = outputs.self_locking === 1;
+    if (one.kind === "row") found.rigidity = undefined;
+    else for (const name of OF_ROWS) delete found[name];
+    const [load, speed] = [Math.abs(one.inputs[LOAD]), Math.abs(one.inputs[SPEED])];
+    const signs = QUADRANTS.map(([, ofLoad, ofSpeed]) => [ofLoad, ofSpeed]);
+    const columns = {
+      [LOAD]: [...signs.map(([sign]) => sign * load), 0],
+      [SPEED]: [...signs.map(([, sign]) => sign * speed), one.inputs[SPEED]],
+    };
+    const around = this.#at(one, columns, signs.length + 1);
+    if (one.kind !== "row") found.preload_drag = plain(around.screw_torque[signs.length]);
+    found.quadrants = Object.fromEntries(
+      QUADRANTS.map(([name, load_sign, speed_sign], place) => [
+        name,
+        {
+          load_sign,
+          speed_sign,
+          shaft_torque: plain(around.drive_torque[place]),
+          efficiency: plain(around[load_sign === speed_sign ? "efficiency" : "back_driving_efficiency"][place]),
+        },
+      ]),
+    );
+    return found;
+  }
+
+  /** The loads of a nut: of each ball where its bodies are elastic. @param {CaseAlone} one @param {Tables} outputs */
+  #loads(one, outputs) {
+    const balls = this.#engine.balls(one.structure, one.inputs);
+    const names = ["deflection", "rigidity", "remaining_preload", "lift_off_load"];
+    return {
+      ...Object.fromEntries(names.map((name) => [name, plain(outputs[name])])),
+      ...(balls && { balls: Object.fromEntries(Object.entries(balls).map(([name, all]) => [name, [...all]])) }),
+    };
+  }
+
+  /**
+   * The curves around the operating point, each computed when it is asked for.
+   *
+   * @param {{ one: CaseAlone, outputs: Tables, flooded: number | undefined }} own
+   */
+  #curves({ one, outputs, flooded }) {
+    const axes = axesAround(this.#axesOf(one), { axial_load: one.inputs[LOAD], screw_speed: one.inputs[SPEED] });
+    const isNut = one.kind !== "row";
+    const films = isNut ? ["minimum_film_parameter"] : ["screw_film_parameter", "nut_film_parameter"];
+    const pressures = isNut ? ["maximum_pressure"] : ["screw_maximum_pressure", "nut_maximum_pressure"];
+    const parts = Object.keys(outputs).filter((name) => name.startsWith("contribution_"));
+    const bath = flooded === undefined ? [] : [FLOODED];
+    const follows = one.grade && one.inputs[LOAD] && one.inputs[SPEED] && !one.kept.includes("viscosity");
+    const temperatures = [...new Set([COLD, one.temperature, HOT])].sort((a, b) => a - b);
+    const constant = one.inputs[REPLENISHMENT];
+    const hot = {
+      [TEMPERATURE]: temperatures,
+      [SPEED]: [0, one.inputs[SPEED]],
+      ...(constant && { [REPLENISHMENT]: [0, constant] }),
+    };
+    return {
+      over_speed: () => this.#swept(one, axes.over_speed, ["screw_torque", ...parts, ...films, ...bath]),
+      over_both: () => this.#swept(one, axes.over_both, ["efficiency", "back_driving_efficiency"]),
+      over_load: () => this.#swept(one, axes.over_load, pressures),
+      ...(follows && { cold_and_hot: () => this.#swept(one, hot, ["screw_torque", "holding_torque"]) }),
+    };
+  }
+
+  /** @param {CaseAlone} one @returns {CaseModule["axes"]} */
+  #axesOf({ kind }) {
+    return this.contents.axes[kind === "row" ? "row" : "nut"];
+  }
+
+  /**
+   * A sweep over axes, by the names of their inputs.
+   *
+   * @param {CaseAlone} one
+   * @param {Axes} axes
+   * @param {string[]} outputs
+   */
+  #swept(one, axes, outputs) {
+    const names = Object.keys(axes);
+    let points = [/** @type {Record<string, number>} */ ({})];
+    for (const name of names)
+      points = points.flatMap((point) => axes[name].map((value) => ({ ...point, [name]: value })));
+    /** @type {Record<string, Float64Array>} */
+    const changes = {};
+    for (const name of names) {
+      const values = Float64Array.from(points, (point) => point[name]);
+      if (name !== TEMPERATURE) changes[name] = values;
+      else {
+        for (const [input, numbers] of Object.entries(this.#engine.oil(one.grade, values, points.length))) {
+          if (input in one.inputs && !one.kept.includes(input)) changes[input] = numbers;
+        }
+      }
+    }
+    const found = this.#at(one, changes, points.length);
+    if (outputs.includes(FLOODED)) {
+      found[FLOODED] = this.#at(one, { ...changes, ...FULL_BATH }, points.length).screw_torque;
+    }
+    const sizes = names.map((name) => axes[name].length);
+    const column = (/** @type {string} */ name) => {
+      const flat = Array.from(found[name], (value) => (name === "valid" ? value === 1 : plain(value)));
+      return { values: nested(flat, sizes), ...this.#described(name) };
+    };
+    return {
+      axes: Object.fromEntries(names.map((name) => [name, { values: axes[name], ...this.#described(name) }])),
+      outputs: Object.fromEntries([...outputs, "valid"].map((name) => [name, column(name)])),
+    };
+  }
+
+  /** @param {string} name */
+  #described(name) {
+    const { unit = "1", meaning = name } = this.contents.fields[name] ?? this.contents.results[name] ?? {};
+    return { unit, meaning };
+  }
+
+  /**
+   * A sweep as it is asked for; with a band that of the torque over the speed.
+   *
+   * @param {{ case: Tables, vary: Record<string, string>, outputs: string[], band?: boolean }} body
+   * @param {AbortSignal} [signal]
+   */
+  async #sweep({ case: tables, vary, outputs, band }, signal) {
+    const { one } = await this.#ran(tables);
+    const { fields } = this.contents;
+    const unknown = Object.keys(vary).find((name) => !(name in one.inputs) && !(name === TEMPERATURE && one.grade));
+    if (unknown !== undefined) throw new Problem({ title: `${unknown} is not varied by a page without a server.` });
+    const axes = Object.fromEntries(Object.entries(vary).map(([name, text]) => [name, valuesIn(text, fields[name])]));
+    if (!band) return this.#swept(one, axes, outputs);
+    const fan = await this.#banded(one, "fan", axes[SPEED], signal);
+    const ends = { low: fan.lows.map(plain), high: fan.highs.map(plain) };
+    const swept = this.#swept(one, axes, outputs);
+    Object.assign(swept.outputs.screw_torque, ends);
+    return { ...swept, band: { level: this.contents.bands.level } };
+  }
+
+  /** The band at the operating point. @param {Tables} tables @param {AbortSignal} [signal] */
+  async #band(tables, signal) {
+    const { one, run } = await this.#ran(tables);
+    const { ends, count, invalid } = await this.#banded(one, "point", [], signal);
+    const { bands } = this.contents;
+    const { low, high } = ends.screw_torque;
+    const shown = (/** @type {number} */ value) => units.formatted("screw_torque", value);
+    const text = `friction torque ${shown(run.results.screw_torque)} at the values of the case, ${100 * bands.level} % of the samples of inputs between ${shown(low)} and ${shown(high)}`;
+    const share =
+      invalid > 0 ? [`${units.digits(100 * invalid, 2)} % of the samples lie outside the model's validity.`] : [];
+    const record = {
+      id: "band.torque",
+      subject: "screw_torque",
+      value: null,
+      unit: "N m",
+      limit: null,
+      holds: null,
+      severity: "info",
+      text,
+    };
+    const laws = {
+      ...record,
+      id: "band.laws",
+      text: "Laws are not varied here: the low end is usually 5 to 25 % higher than that of inputs and laws in the program.",
+    };
+    const question = this.#asked(one, "point", []);
+    const makers = makersIn(bands, question);
+    const of = `${count} samples of ${uncertainIn(bands, question)?.length ?? 0} uncertain inputs${makers.length ? `, and the calibrations of ${makers.length} makers` : ""}. ${share.join(" ")}`;
+    return {
+      band: { ...ends, laws: {} },
+      verdicts: [record, laws],
+      warnings: [],
+      words: { sentences: [text], inputs: of },
+    };
+  }
+
+  /** What a band is asked of. @param {CaseAlone} one @param {"point" | "fan"} kind @param {number[]} speeds */
+  #asked({ structure, start, inputs, grade, temperature, places }, kind, speeds) {
+    const kept = Object.entries(places).flatMap(([path, { input }]) => (path.startsWith("lubricant.") ? [input] : []));
+    return { structure, start, inputs, grade, temperature, kept, kind, speeds };
+  }
+
+  /** @param {CaseAlone} one @param {"point" | "fan"} kind @param {number[]} speeds @param {AbortSignal} [signal] @returns {Promise<any>} */
+  async #banded(one, kind, speeds, signal = new AbortController().signal) {
+    const found = await this.#banding.ask(this.#asked(one, kind, speeds), signal);
+    if (!found) throw new Problem({ title: "This page has no band of such a case; the program has one." });
+    return found;
+  }
+
+  /** The ball between its grooves. @param {Tables} tables */
+  async #drawing(tables) {
+    const { one, outputs } = await this.#ran(tables);
+    const inputs = { ...one.values, ...one.inputs };
+    return ballDrawing(ballAt(this.#engine, this.contents, { structure: one.structure, inputs, outputs }));
+  }
+
+  /** What computes the case while something is moved. @param {Tables} tables */
+  async #module(tables) {
+    const { one } = await this.#ran(tables);
+    const { contents } = this;
+    const spec = contents.structures[one.structure];
+    const places = Object.entries(one.places).filter(([path]) => path !== "operation.screw_speed" || !isOfNut(tables));
+    const { file, grades } = contents.oils;
+    return {
+      state: "ready",
+      structure: spec,
+      solver: "by_ball" in spec ? contents.solver : null,
+      oil: one.grade ? { file, ...grades[one.grade] } : null,
+      values: Object.fromEntries(Object.entries(one.inputs).map(([name, value]) => [name, plain(value)])),
+      places: Object.fromEntries(places),
+      axes: this.#axesOf(one),
+    };
+  }
+}
+
+/** True where the speed is that of the nut. @param {Tables} tables */
+function isOfNut({ operation }) {
+  return units.parse(operation?.[SPEED], "m/s") !== null;
+}
+
+/** @param {unknown[]} flat @param {number[]} sizes @returns {unknown[]} */
+function nested(flat, [size, ...inner]) {
+  if (!inner.length) return flat;
+  const step = flat.length / size;
+  return Array.from({ length: size }, (_, row) => nested(flat.slice(row * step, (row + 1) * step), inner));
+}
+
+/**
+ * The values of an axis as it is written: ``low:high:count unit``, or numbers with a unit.
+ *
+ * @param {string} text
+ * @param {any} field
+ * @returns {number[]}
+ */
+function valuesIn(text, { unit }) {
+  const [, numbers, written] = /^([-+\d.e:,\s]+?)\s*([a-zA-Z/%°].*)?$/.exec(text.trim()) ?? [];
+  if (!numbers) throw new Problem({ title: `${text} is no axis.` });
+  const [low, high, count] = numbers.split(":").map(Number);
+  const values =
+    count === undefined
+      ? numbers.split(",").map(Number)
+      : Array.from({ length: count }, (_, place) => low + ((high - low) * place) / (count - 1));
+  return values.map((value) => (written && unit !== "1" ? units.toSI(value, written.trim(), unit) : value));
+}
+
+/** The inputs in their tables, those of the laws of the model among them. @param {any} contents @param {CaseAlone} one */
+function inputsOf(contents, { structure, inputs, given, grade, temperature, listed }) {
+  const found = structuredClone(contents.templates[structure]);
+  for (const [name, value] of Object.entries(inputs)) put(found, contents.fields[name]?.path, plain(value));
+  found.lubricant = { ...found.lubricant, ...(grade && { grade, temperature }) };
+  for (const [name, value] of Object.entries(listed)) if (value !== null) put(found, `screw.${name}`, value);
+  for (const [name, value] of Object.entries(given))
+    put(found, name.includes(".") ? name : `installation.${name}`, value);
+  return found;
+}
+
+/** @param {Tables} tables @param {string | undefined} path @param {unknown} value */
+function put(tables, path, value) {
+  if (!path) return;
+  const names = path.split(".");
+  const last = names.pop() ?? path;
+  let place = tables;
+  for (const name of names) {
+    if (typeof place[name] !== "object" || place[name] === null) place[name] = {};
+    place = place[name];
+  }
+  place[last] = value;
+}
+
+/** The operating point and the model of a case in words. @param {CaseAlone} one */
+function titleOf({ inputs, structure }) {
+  const shown = [LOAD, SPEED].map((name) => units.formatted(name, inputs[name]));
+  return `${shown.join(", ")}, model ${structure.split("/")[0]}`;
+}
+
+/** What answers in place of a server; none where one does. */
+export function answersAlone() {
+  const { contents, worker = "" } = site();
+  return contents ? new Alone(contents, worker) : undefined;
+}

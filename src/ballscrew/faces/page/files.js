@@ -1,0 +1,72 @@
+// Files at the door of the page: opened or dropped, and the words on what stays in this browser.
+
+import { byId, element, showNotice } from "./dom.js";
+import { keeping } from "./keeping.js";
+import { NOT_KEPT } from "./names.js";
+import { open as opened } from "./opening.js";
+
+/** Deleting everything is asked for twice within this time, in milliseconds. */
+const SURE_WITHIN = 6000;
+
+export function setUp() {
+  const input = /** @type {HTMLInputElement} */ (byId("open-file"));
+  byId("open").addEventListener("click", () => input.click());
+  input.addEventListener("change", () => {
+    open([...(input.files ?? [])]);
+    input.value = ""; // the same file can be opened again
+  });
+  // a card that takes files itself prevents both
+  addEventListener("dragover", (event) => event.preventDefault());
+  addEventListener("drop", (event) => {
+    if (event.defaultPrevented) return;
+    event.preventDefault();
+    open([...(event.dataTransfer?.files ?? [])]);
+  });
+  setUpKeeping();
+}
+
+/** @param {File[]} files */
+async function open(files) {
+  if (!files.length) return;
+  const lines = await opened(files);
+  showNotice(...lines.flatMap((line) => [line, element("br")]).slice(0, -1));
+}
+
+function setUpKeeping() {
+  const button = byId("forget");
+  let sure = false;
+  const show = () => {
+    const count = keeping.kept().length;
+    const why = keeping.whyNot();
+    button.hidden = !count;
+    button.textContent = sure
+      ? `Really delete all ${count}? It cannot be undone`
+      : `Delete everything kept here (${count})`;
+    byId("kept-words").textContent = why ? NOT_KEPT[why] : "Your designs stay in this browser until you delete them.";
+    byId("not-kept").hidden = !why;
+    byId("not-kept").textContent = why ? NOT_KEPT[why] : "";
+  };
+  button.addEventListener("click", () => {
+    if (sure) keeping.forget(keeping.kept().map(({ id }) => id));
+    sure = !sure;
+    show();
+    setTimeout(() => {
+      sure = false;
+      show();
+    }, SURE_WITHIN);
+  });
+  keeping.addEventListener("change", show);
+  show();
+}
+
+/**
+ * Say that work of before is shown, and how to begin anew.
+ *
+ * @param {import("./keeping.js").Work} work
+ */
+export function sayRestored({ saved }) {
+  const when = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" }).format(saved);
+  const afresh = element("button", { type: "button", id: "afresh" }, "Start afresh");
+  afresh.addEventListener("click", () => keeping.show("#A=paper"));
+  showNotice(`Your work of ${when} is shown, as this browser kept it. `, afresh);
+}
