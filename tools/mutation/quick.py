@@ -37,7 +37,7 @@ MAP = WORK / "map.json.gz"
 MODULE = "<module>"
 #: Tests that are in no map, as they start processes, servers and browsers, or take minutes for one room.
 UNMEASURED = tuple(
-    f"tests/{name}" for name in ("compiler/kernels", "docs", "engine/sweeps", "exports", "faces/site", "faces/web")
+    f"tests/{name}" for name in ("compiler/kernels", "docs", "engine/sweeps", "exports", "faces/page", "faces/web")
 )
 #: Share of the budget that tests named after a changed module may fill before others have their turn.
 OF_NAMED = 0.5
