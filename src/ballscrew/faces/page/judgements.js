@@ -18,17 +18,6 @@
  *   value: number | null, limit: number | null, unit: string, utilisation: number | null,
  * }} JudgedRecord
  */
-/** How a place is written: the words of a template, the name of a unit, and digits. */
-/**
- * @typedef {{ say?: (template: string) => string, sign?: (unit: string) => string, digits?: (text: string) => string }} Words
- */
-
-/** How templates, units and digits are written where nobody says otherwise: as the command line does. */
-const AS_WRITTEN = {
-  say: (/** @type {string} */ template) => template,
-  sign: (/** @type {string} */ unit) => unit.replace("um", "µm"),
-  digits: (/** @type {string} */ text) => text,
-};
 /** Digits beyond which a plain number has none. */
 const PLAIN = 10;
 /** From where on a large number has an exponent, whatever its significant digits. */
@@ -240,36 +229,32 @@ function standing(place, row, judged) {
 }
 
 /**
- * A message as text.
+ * A message as text, as the command line writes it.
  *
  * @param {Contents} contents
  * @param {Message} message
- * @param {Words} [words]
  * @returns {string}
  */
-export function textOf(contents, { template, values }, words = {}) {
-  const { say, sign, digits } = { ...AS_WRITTEN, ...words };
-  const one = (/** @type {any} */ value) => {
+export function textOf(contents, { template, values }) {
+  const written = (/** @type {any} */ value) => {
     if (typeof value === "string") return value;
-    if (Array.isArray(value)) return value.map((each) => textOf(contents, each, words)).join(", ");
-    if ("template" in value) return textOf(contents, value, words);
-    return digits(inUnit(contents, value, sign));
+    if (Array.isArray(value)) return value.map((each) => textOf(contents, each)).join(", ");
+    return "template" in value ? textOf(contents, value) : inUnit(contents, value);
   };
-  return say(template).replace(/\{([\w.]+)\}/g, (/** @type {string} */ place, /** @type {string} */ name) =>
-    name in values ? one(values[name]) : place,
+  return template.replace(/\{([\w.]+)\}/g, (/** @type {string} */ place, /** @type {string} */ name) =>
+    name in values ? written(values[name]) : place,
   );
 }
 
 /**
  * @param {Contents} contents
  * @param {{ value: number, unit: string, shown_in: string, digits: number, decimals?: number }} place
- * @param {(unit: string) => string} sign
  */
-function inUnit({ judging }, { value, unit, shown_in: shownIn, digits, decimals }, sign) {
+function inUnit({ judging }, { value, unit, shown_in: shownIn, digits, decimals }) {
   if (decimals !== undefined) return Number.isFinite(value) ? value.toFixed(decimals) : general(value, PLAIN);
   if (unit === "1") return general(Number(general(value, digits)), PLAIN);
   const { factor, offset } = judging.units[`${unit}|${shownIn}`];
-  return `${toDigits((value - offset) / factor, digits)} ${sign(shownIn)}`;
+  return `${toDigits((value - offset) / factor, digits)} ${shownIn.replace("um", "µm")}`;
 }
 
 /**
@@ -289,7 +274,7 @@ function toDigits(number, digits) {
  * @param {number} number
  * @param {number} digits
  */
-export function general(number, digits) {
+function general(number, digits) {
   if (!Number.isFinite(number)) return Number.isNaN(number) ? "nan" : number > 0 ? "inf" : "-inf";
   const [mantissa, power] = number.toExponential(digits - 1).split("e");
   const exponent = Number(power);

@@ -66,7 +66,11 @@ export function slidersOf(path, field, name, node) {
     id: `s-${path.replaceAll(".", "-")}`,
     "aria-label": `${name}, slider`,
   });
-  const say = () => slider.setAttribute("aria-valuetext", `${input.value} ${units.symbol(unit?.value ?? "")}`.trim());
+  const say = () => {
+    const share = (Number(slider.value) - Number(slider.min)) / (Number(slider.max) - Number(slider.min));
+    slider.style.setProperty("--share", `${100 * share}%`);
+    slider.setAttribute("aria-valuetext", `${input.value} ${units.symbol(unit?.value ?? "")}`.trim());
+  };
   const isWhole = node.type === "integer" || node.anyOf?.some(({ type }) => type === "integer");
   let isMoving = false; // its ends stay as they are then
   let isShare = false;

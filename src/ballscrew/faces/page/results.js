@@ -178,8 +178,10 @@ export function show(answer, { band, checks }, isWanted = () => true) {
   const shown = rounded(efficiency, results[efficiency], known).text;
   const numbersInWords = `Friction torque ${torque.text}${torque.interval && known ? ` (${ofCauses(torque.interval, known)})` : ""}, drive torque ${rounded("drive_torque", results.drive_torque, known).text}, efficiency ${isDriven ? `${shown} (the load drives)` : shown}.`;
   const beside = `${outsideBand(results.screw_torque, known)}${inHeadline(answer)}`;
-  const summary = `${numbersInWords}${beside}${checks ? ` ${verdict(checks)}` : ""}`;
+  const inShort = `${beside}${checks ? ` ${verdict(checks)}` : ""}`;
+  const summary = `${numbersInWords}${inShort}`;
   write("summary", summary);
+  write("in-short", inShort.trim()); // the numbers stand above it
   if (!byId("results").classList.contains("stale")) {
     announcer.announce(summary);
     const title = `${torque.text} · ballscrew`;
