@@ -36,6 +36,8 @@ const BAND_DELAY = 400;
 const BUSY_DELAY = 1000;
 /** Milliseconds after which what was moved rests, and the server is asked. */
 const REST = 200;
+/** Milliseconds after a frame of numbers until the curves that were left out of it. */
+const REST_OF_CURVES = 30;
 /** Milliseconds that the curves of one frame may take: the others follow when it rests. */
 const TIME_OF_CURVES = 30;
 /** Curves are drawn with the numbers where this many points take less than this many milliseconds. */
@@ -340,13 +342,18 @@ class Answers {
     const answer = moving.answerOf(before, moved.values);
     byId("results").classList.add("moving");
     results.show(answer, { band: band && { state: "pending" } }, isSeen);
-    if (isSeen(byId("power"))) showPower(answer);
     this.#shown = { answer, moved };
     tell(moved.body ?? this.#displayed.body, answer);
     // this is a frame: the next task runs once it is painted, and before the curves
     measurePaint("moved", moved.start, this.#never.signal, nextTask());
-    if (localEngine.timeOf(MOST_POINTS) < TIME_IN_FRAME) this.#drawMovedCurves();
-    else this.#curves ??= setTimeout(() => this.#drawMovedCurves()); // the numbers are painted before
+    const isQuick = localEngine.timeOf(MOST_POINTS) < TIME_IN_FRAME;
+    if (isQuick) this.#drawMovedCurves(["over_speed"]);
+    // the rest once the numbers, and the curve beside them, are painted
+    this.#curves ??= setTimeout(() => {
+      this.#curves = undefined;
+      if (this.#shown && isSeen(byId("power"))) showPower(this.#shown.answer);
+      this.#drawMovedCurves(isQuick ? ["over_load", "over_both"] : ["over_speed", "over_load", "over_both"]);
+    }, REST_OF_CURVES);
   }
 
   /** Another pane is seen: show in it what was left out while it was not. */
@@ -360,9 +367,8 @@ class Answers {
     for (const draw of this.#undrawn.splice(0)) draw();
   }
 
-  /** Draw the curves of the numbers that are shown. */
-  #drawMovedCurves() {
-    this.#curves = undefined;
+  /** Draw curves of the numbers that are shown. @param {string[]} names */
+  #drawMovedCurves(names) {
     if (!this.#shown) return;
     const {
       answer,
@@ -370,10 +376,12 @@ class Answers {
     } = this.#shown;
     const { alongSpeed, alongLoad, everywhere } = this.#displayed;
     const isNear = (/** @type {string[]} */ ...ids) => ids.some(isVisible);
+    const isAsked = (/** @type {string} */ name, /** @type {string[]} */ ...ids) =>
+      names.includes(name) && isNear(...ids);
     const before = {
-      ...(alongSpeed && isNear("torque-chart", "film-chart") && { over_speed: alongSpeed }),
-      ...(alongLoad && isNear("pressure-chart") && { over_load: alongLoad }),
-      ...(everywhere && isNear("map-chart") && { over_both: everywhere }),
+      ...(alongSpeed && isAsked("over_speed", "torque-chart", "film-chart") && { over_speed: alongSpeed }),
+      ...(alongLoad && isAsked("over_load", "pressure-chart") && { over_load: alongLoad }),
+      ...(everywhere && isAsked("over_both", "map-chart") && { over_both: everywhere }),
     };
     move(["torque-chart", "film-chart", "stribeck-chart", "hot-chart", "pressure-chart", "map-chart"], isHeld, () => {
       const found = moving.curvesOf(before, values, isHeld, TIME_OF_CURVES);
