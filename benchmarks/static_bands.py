@@ -20,7 +20,7 @@ import numpy as np
 
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.uncertainty import bands
-from ballscrew.faces.page import banding, kinds
+from ballscrew.faces.page import kinds
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.band.compute import alternatives, of_makers
 
@@ -38,6 +38,8 @@ HEADING = (
 )  # fmt: skip
 #: The range of the fan, rad/s.
 SLOWEST, FASTEST = 2.0, 150.0
+#: Speeds of the fan.
+SPEEDS, SPEEDS_BY_BALL = 25, 9
 
 
 def _both(band: bands.OutputBand) -> Iterator[tuple[str, float]]:
@@ -47,7 +49,7 @@ def _both(band: bands.OutputBand) -> Iterator[tuple[str, float]]:
 def compared(page: BandsPage, start: str, structure: tuple[str, str]) -> dict[str, Any]:
     """One nut at one start."""
     by_ball = "+" in structure[1]
-    speeds = np.linspace(SLOWEST, FASTEST, banding.SPEEDS_BY_BALL if by_ball else banding.SPEEDS)
+    speeds = np.linspace(SLOWEST, FASTEST, SPEEDS_BY_BALL if by_ball else SPEEDS)
     question = page.question(start, structure, speeds)
     (found,) = page.bands([question])
     point, fan = found["point"], found["fan"]

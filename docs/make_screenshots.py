@@ -21,8 +21,8 @@ START = ROOT / "out" / "docs" / "index.html"
 DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
-#: The static page, and the case that it shows.
-STATIC, STATIC_SIZE = f"start={DOUBLE}", {"width": 1360, "height": 860}
+#: The page without a server, and the case that it shows.
+STATIC, STATIC_SIZE = f"A={DOUBLE}", {"width": 1360, "height": 860}
 COMMAND = [sys.executable, "-m", "ballscrew.faces.cli"]
 
 DESKTOP, PHONE = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
@@ -125,14 +125,15 @@ def first_page(pdf: bytes) -> bytes:
 
 
 def of_static_page(browser: Browser) -> None:
-    """Screenshot of the static page."""
+    """Screenshot of the page without a server."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "page.html"
         kinds = ["--model", "reference", "--nut", "row", "--nut", "double", "--nut", "double+elastic"]
         subprocess.run([*COMMAND, "site", file, "--single", *kinds], check=True, capture_output=True)
         page = browser.new_page(color_scheme="light", viewport=STATIC_SIZE)
         page.goto(f"{file.as_uri()}#{STATIC}")
-        page.wait_for_selector("html[data-ready][data-band=fan]")
+        page.wait_for_selector("html[data-ready]")
+        page.locator("#numbers .interval", has_text=" to ").first.wait_for()
         page.wait_for_timeout(1000)
         save("static_page.png", page.screenshot())
         page.close()

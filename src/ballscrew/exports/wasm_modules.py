@@ -45,8 +45,9 @@ OUTPUTS = (
     "screw_torque", "nut_torque", "ideal_torque", "drive_torque", "holding_torque", "self_locking", "efficiency",
     "back_driving_efficiency", "contact_load", "largest_contact_load", "maximum_pressure", "minimum_film_parameter",
     "screw_film_parameter", "nut_film_parameter", "screw_friction_coefficient", "nut_friction_coefficient",
-    "screw_maximum_pressure", "nut_maximum_pressure", "rolling_share", "deflection", "rigidity", "remaining_preload",
-    "lift_off_load", "residual", "valid", "screw_semi_major_axis", "nut_semi_major_axis", "power_imbalance", *BALL,
+    "screw_maximum_pressure", "nut_maximum_pressure", "friction_coefficient", "friction_angle", "friction_power",
+    "rolling_share", "deflection", "rigidity", "remaining_preload", "lift_off_load", "residual", "valid",
+    "screw_semi_major_axis", "nut_semi_major_axis", "power_imbalance", *BALL,
 )  # fmt: skip
 #: Of these what sweeps do not ask for.
 _FURTHER: Mapping[str, Output] = {

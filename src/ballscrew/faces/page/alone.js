@@ -452,9 +452,11 @@ function put(tables, path, value) {
 }
 
 /** The operating point and the model of a case in words. @param {CaseAlone} one */
-function titleOf({ inputs, structure }) {
+function titleOf({ inputs, structure, tables }) {
   const shown = [LOAD, SPEED].map((name) => units.formatted(name, inputs[name]));
-  return `${shown.join(", ")}, model ${structure.split("/")[0]}`;
+  const { type } = tables.nut ?? {};
+  const preload = inputs.preload ? `, preload ${units.formattedIn(inputs.preload, "N", "N")}` : "";
+  return `${shown.join(", ")}${type ? `, ${type} nut${preload}` : ""}, model ${structure.split("/")[0]}`;
 }
 
 /** What answers in place of a server; none where one does. */

@@ -39,8 +39,6 @@ from ballscrew.questions.band.compute import LEVEL, PRESSING, of_makers
 SAMPLES = {"point": bands.SAMPLES, "fan": 2**9}
 #: The same of nuts whose balls are solved one by one, each sample anew.
 SAMPLES_BY_BALL = {"point": bands.NUT_SAMPLES, "fan": 2**7}
-#: Speeds of the fan.
-SPEEDS, SPEEDS_BY_BALL = 25, 9
 SEED = 0
 #: What is evaluated of each sample, and what its torque is moved by.
 DRAWN = ("screw_torque", "ideal_torque", "drive_torque", "factor")
@@ -231,7 +229,6 @@ def contents_of_bands(
         "drawn": list(DRAWN[:-1]),
         "makers": makers,
         "samples": {"usual": SAMPLES, "by_ball": SAMPLES_BY_BALL},
-        "speeds": {"usual": SPEEDS, "by_ball": SPEEDS_BY_BALL},
         "uncertain": tables,
         "sobol": {str(d): sobol_numbers(d, max(SAMPLES.values())) for d in sorted(counts)},
     }

@@ -12,7 +12,7 @@
 /**
  * @typedef {{
  *   file: string, functions: Record<string, import("./engine.js").Spec>, level: number, tails: number[],
- *   outputs: string[], drawn: string[], makers: Record<string, Makers>, samples: Record<string, Record<string, number>>, speeds: Record<string, number>,
+ *   outputs: string[], drawn: string[], makers: Record<string, Makers>, samples: Record<string, Record<string, number>>,
  *   uncertain: Record<string, Uncertain[]>, sobol: Record<string, { unit: number, first: number[], turns: number[][] }>,
  * }} Bands
  */

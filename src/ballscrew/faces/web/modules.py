@@ -34,10 +34,7 @@ from ballscrew.exports.wasm_modules import (
 from ballscrew.physics.laws.contact import RaceState
 
 #: What the page shows of an answer, where the nut has it.
-SHOWN = (
-    *OUTPUTS, "friction_coefficient", "friction_angle", "friction_power",
-    *(f"{side}_{name}" for side in ("screw", "nut") for name in quantities_of(RaceState)),
-)  # fmt: skip
+SHOWN = (*OUTPUTS, *(f"{side}_{name}" for side in ("screw", "nut") for name in quantities_of(RaceState)))
 #: Most modules in memory, and most that wait to be made.
 MOST_IN_MEMORY, MOST_WAITING = 32, 4
 #: How much the thread that makes modules gives way to requests, where the system knows that of threads.
