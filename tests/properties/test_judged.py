@@ -171,24 +171,6 @@ def test_without_what_a_row_needs_it_is_left_out():
     assert judged({}) == {}
 
 
-def test_checks_are_counted():
-    """Of three that can be judged one fails; of all of them those count whose masks say so."""
-    values = {
-        "static_load_rating": 4.0, "largest_half_load": 1.0, "limits.static_safety": 5.0, "maximum_pressure": 1e9,
-        "largest_load": 1.0, "root_diameter": 1.0, "limits.shaft_stress": 10.0,
-    }  # fmt: skip
-    found = judged(values)["verdict.checks"]
-    assert [float(found[name]) for name in ("number_judged", "number")] == [3, 8]
-    assert (bool(found["fails"]), bool(found["fails_of_all"]), bool(found["holds"])) == (True, False, False)
-    of_all = judged(random_values(6))
-    rows = [(one.get("judged", True), one["holds"]) for name, one in of_all.items() if name.startswith("check.")]
-    found = of_all["verdict.checks"]
-    assert np.array_equal(
-        found["number_judged"], sum(np.where(is_judged, 1, np.zeros(POINTS)) for is_judged, _ in rows)
-    )
-    assert np.array_equal(found["fails"], np.any([is_judged & ~holds for is_judged, holds in rows], axis=0))
-
-
 def test_at_most_one_thing_is_said_of_a_load():
     """At rest and in motion one of: it drives, it is held; none without load, nor where its torque is no number."""
     values = random_values(2)

@@ -14,7 +14,7 @@ for (const point of points) {
   await engine.load(point.structure);
   const judged = judgedAt(engine, contents, point);
   const records = recordsOf(contents, judged);
-  for (const one of [...records.verdicts, ...records.warnings, ...records.checks, records.all]) {
+  for (const one of [...records.verdicts, ...records.warnings, ...records.checks]) {
     one.text = textOf(contents, one.message);
   }
   const { inputs, outputs } = judged.sources;

@@ -162,12 +162,6 @@ def compare(page_records, records):
                 assert mine[name] == pytest.approx(one[name], rel=1e-9, nan_ok=True), (mine["id"], name)
 
 
-def without_unlikely(verdict):
-    """A verdict as the page has it, which does not know which inputs are unlikely."""
-    text = verdict["text"].partition("; unlikely")[0]
-    return {**verdict, "text": text, "severity": "error" if verdict["holds"] is False else "info"}
-
-
 @pytest.mark.parametrize("name", CASES)
 def test_the_verdicts_and_warnings_are_those_of_a_run(page, found, name):
     made = run(case_of(page, name))
@@ -180,7 +174,6 @@ def test_the_checks_are_those_of_a_check(page, found, name):
     made = checked(name, case_of(page, name))
     records = found[name]["records"]
     compare(records["checks"], [check.record.document() for check in made.checks])
-    compare([records["all"]], [without_unlikely(made.verdicts[0].document())])
     for mine, check in zip(records["checks"], made.checks, strict=True):
         used = math.nan if check.utilisation is None else check.utilisation
         mine_used = math.nan if mine["utilisation"] is None else mine["utilisation"]
@@ -205,7 +198,6 @@ def test_records_at_random_points_are_those_of_the_program(page, start, structur
         compare(each["records"]["verdicts"], [one.document() for one in made.verdicts])
         compare(each["records"]["warnings"], [one.document() for one in made.conditions])
         compare(each["records"]["checks"], [check.record.document() for check in judgement.checks])
-        compare([each["records"]["all"]], [without_unlikely(judgement.verdicts[0].document())])
 
 
 def test_the_cases_say_much(found):

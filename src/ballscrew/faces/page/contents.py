@@ -7,7 +7,6 @@ from typing import Any
 
 import tomlkit
 
-from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
 from ballscrew.basis.version import __version__
 from ballscrew.cases.schema.case_schema import json_schema
@@ -59,10 +58,7 @@ def contents(
     return {
         "version": __version__,
         "models": {model: _values(subjects, model) for model in dict.fromkeys(model for model, _ in modules)},
-        "kinds": {
-            name: {"words": kind.words, "is_preloaded": kind.is_preloaded, "nut": kind.nut}
-            for name, kind in kinds.KINDS.items()
-        },
+        "kinds": {name: {"is_preloaded": kind.is_preloaded} for name, kind in kinds.KINDS.items()},
         "structures": {f"{model}/{kind}": module.document for (model, kind), module in modules.items()},
         "solver": solver,
         "oils": {"file": oils.file, "grades": {grade: described(function) for grade, function in of_oils}},
@@ -96,16 +92,8 @@ def _inputs(model: str, kind: str) -> dict[str, Any]:
     return inputs
 
 
-def _described(quantity: Quantity) -> dict[str, Any]:
-    offset = units.to_si(0.0, quantity.shown_in, quantity)
-    return {
-        "meaning": quantity.info.meaning,
-        "symbol": quantity.info.symbol,
-        "unit": quantity.unit,
-        "shown_in": quantity.shown_in,
-        "factor": units.to_si(1.0, quantity.shown_in, quantity) - offset,
-        "offset": offset,
-    }
+def _described(quantity: Quantity) -> dict[str, str]:
+    return {"meaning": quantity.info.meaning, "unit": quantity.unit}
 
 
 def _values(subjects: Mapping[tuple[str, str], Configuration], model: str) -> dict[str, Any]:
@@ -137,7 +125,6 @@ def _field(name: str, part: str, quantity: Quantity) -> dict[str, Any]:
         "path": f"{section}{name}",
         **_described(quantity),
         **{bound: value for bound, value in bounds.items() if value is not None},
-        "usual": info.usual,
         "whole": info.whole,
     }
 
@@ -158,7 +145,6 @@ def _start(name: str) -> dict[str, Any]:
         nuts[kind] = {"values": of_nut}
     return {
         "case": start_case(name),
-        "kind": kinds.kind_of_start(name),
         "values": values,
         "nuts": nuts,
         "judged": of_start(name),

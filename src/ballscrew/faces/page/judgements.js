@@ -113,7 +113,6 @@ export function judgedAt(engine, contents, point) {
     const mayBeNone = !["derived", "given", "rule"].includes(place[0]);
     if (typeof value === "number" && (mayBeNone || !Number.isNaN(value))) known.add(name);
   }
-  for (const row of judging.tables.checks) values[`given.${row.id}`] = isKnown(row, known) ? 1 : 0;
   const isListed = typeof listed.dynamic_load_rating === "number";
   const words = {
     ...(rule?.words ?? {}),
@@ -137,7 +136,7 @@ function isKnown(row, known) {
 }
 
 /**
- * The records of verdicts, warnings and checks, and that of all checks.
+ * The records of verdicts, warnings and checks.
  *
  * @param {Contents} contents
  * @param {Judged} judged
@@ -150,12 +149,7 @@ export function recordsOf({ judging }, judged) {
   const checks = tables.checks.map((/** @type {any} */ row) =>
     isKnown(row, judged.known) ? recordOf(row, judged) : notChecked(row, tables.not_checked),
   );
-  const failing = tables.checks.filter(
-    (/** @type {any} */ _, /** @type {number} */ place) => checks[place].holds === false,
-  );
-  const names = failing.map((/** @type {any} */ row) => plain(row.title));
-  const all = recordOf(tables.all_checks[0], { ...judged, words: { ...judged.words, names } });
-  return { verdicts: said(tables.verdicts), warnings: said(tables.warnings), checks, all };
+  return { verdicts: said(tables.verdicts), warnings: said(tables.warnings), checks };
 }
 
 /** @param {any} row @param {Judged} judged */

@@ -23,14 +23,12 @@ from ballscrew.faces.page import kinds
 from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
 from ballscrew.physics.friction.touching import FlankPair, MostLoadedBall, touched
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS
 from ballscrew.physics.sizing.checks import GIVEN_LIMIT, values_of_limits
 from ballscrew.physics.sizing.derived import LISTED, derived
 from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, documents, judged, outputs
 from ballscrew.physics.sizing.rules import rule_of
-from ballscrew.questions.shared.check_lines import in_shown_unit
 
 #: What else is computed at once: points that differ from that of the visitor in these inputs.
 BESIDE: Mapping[str, Mapping[str, float]] = {
@@ -55,12 +53,6 @@ _FOR_DERIVED: Mapping[str, tuple[str, str]] = {
     "idle_losses": ("without_load", "contribution_seals"),
     **{f"listed.{name}": ("listed", name) for name in LISTED},
 }
-_SHOWN: Mapping[str, Quantity] = {
-    "lead_angle": Quantity("lead_angle", "rad", Info(r"\varphi", "lead angle", "deg")),
-    "nut_speed": Quantity("nut_speed", "m/s", Info("v_n", "speed of the nut along the screw", "m/min")),
-}
-#: The validity of what is checked.
-_VALID = "checked.valid"
 #: A screw is checked with a nut; one without as a single one.
 CHECKED_AS: Mapping[str, str] = {"row": "single"}
 
@@ -81,8 +73,7 @@ def values() -> dict[str, tuple[str, str]]:
     ``inputs`` and ``outputs`` are of the operating point, ``checked`` outputs of the nut that is checked; the names of
     :data:`BESIDE` are outputs there; ``given`` and ``listed`` are of the visitor and of the catalogue.
     """
-    needed = [name for row in JUDGED if row is not ALL_CHECKS for name in (*row.needs, *row.takes)]
-    needed.append(_VALID)
+    needed = [name for row in JUDGED for name in (*row.needs, *row.takes)]
     result = {
         name: ("outputs", name) for name in (*_OF_RUN, *needed) if name in _OF_RUN or name.startswith("validity_")
     }
@@ -97,7 +88,6 @@ def values() -> dict[str, tuple[str, str]]:
         "flooded_torque": ("full_bath", "screw_torque"),
         "maximum_pressure": ("checked", "maximum_pressure"),
         "rule_of_maker": ("rule", "torque"),
-        _VALID: ("checked", "valid"),
     }
     return {name: result[name] for name in dict.fromkeys(needed)}
 
@@ -127,16 +117,13 @@ def module_of_judging() -> Judging:
 
 
 def _judged() -> tuple[tuple[str, ...], Program]:
-    """All that is judged; a truth value is a number that is not zero, and so is what of each check is given."""
+    """All that is judged; a truth value is a number that is not zero."""
     names = tuple(values())
-    of_checks = tuple(f"given.{row.id}" for row in CHECKS)
     truths = {name for row in JUDGED for name in row.truths}
-    tape = Tape(len(names) + len(of_checks))
-    traced: dict[str, Any] = {name: tape.value(place) for place, name in enumerate((*names, *of_checks))}
-    traced |= {name: traced[name] != 0 for name in (*truths & {*names}, *of_checks)}
-    traced["outside_validity"] = traced[_VALID] == 0
-    given = {row.id: traced[f"given.{row.id}"] for row in CHECKS}
-    return (*names, *of_checks), merged_program(tape, outputs(judged(traced, given)))
+    tape = Tape(len(names))
+    traced: dict[str, Any] = {name: tape.value(place) for place, name in enumerate(names)}
+    traced |= {name: traced[name] != 0 for name in truths & {*names}}
+    return names, merged_program(tape, outputs(judged(traced)))
 
 
 def _derived(kind: str) -> tuple[tuple[str, ...], Program]:
@@ -238,10 +225,6 @@ def contents_of_judging(judging: Judging) -> dict[str, Any]:
                 if name in _OF_INSTALLATION
             },
         },
-        "shown": {
-            **{name: _described(quantity) for name, quantity in _SHOWN.items()},
-            **{row.id: _described(in_shown_unit(row.name, row.unit)) for row in CHECKS},
-        },
         "units": _units(tables),
     }
 
@@ -272,15 +255,11 @@ def _without(kind: str) -> list[str]:
     return [*of_ball, *(["rule_of_maker"] if chosen.spacer_balls else [])]
 
 
-def _described(quantity: Quantity, default: Any = None) -> dict[str, Any]:
-    info = quantity.info
-    bounds = {bound: getattr(info, bound) for bound in ("above", "at_least", "below", "at_most")}
+def _described(quantity: Quantity, default: Any) -> dict[str, Any]:
+    """A quantity that is given: its unit, its bounds, and what stands for it where nothing is given."""
+    bounds = {bound: getattr(quantity.info, bound) for bound in ("above", "at_least", "below", "at_most")}
     return {
-        "meaning": info.meaning,
-        "symbol": info.symbol,
         "unit": quantity.unit,
-        "shown_in": quantity.shown_in,
-        **_scale(quantity.unit, quantity.shown_in),
         **{bound: value for bound, value in bounds.items() if value is not None},
         "default": default if isinstance(default, int | float) else None,
     }

@@ -26,10 +26,9 @@ PAPER = "paper"
 
 
 class Kind(NamedTuple):
-    """A kind of nut: its name in a case file, empty for balls alone, and whether its bodies are elastic."""
+    """A kind of nut: its name in a case file, empty for balls alone; elastic bodies, and spacer balls."""
 
     nut: str
-    words: str
     elastic: bool = False
     spacer_balls: bool = False
 
@@ -39,18 +38,13 @@ class Kind(NamedTuple):
         return self.nut in EXAMPLE_PRELOADS
 
 
-_NUTS: Mapping[str, str] = {
-    "single": "single nut, not preloaded",
-    "double": "double nut, preloaded",
-    "offset-lead": "one nut body, preloaded by an offset of its lead",
-    "oversize-balls": "one nut body, preloaded by oversize balls",
-}
+_NUTS = ("single", "double", "offset-lead", "oversize-balls")
 #: The kinds by name: rigid bodies, elastic ones, and every second ball a spacer.
 KINDS: Mapping[str, Kind] = {
-    "row": Kind("", "loaded balls alone, as in the paper"),
-    **{nut: Kind(nut, words) for nut, words in _NUTS.items()},
-    **{f"{nut}+elastic": Kind(nut, f"{words}, elastic bodies", elastic=True) for nut, words in _NUTS.items()},
-    **{f"{nut}+spacers": Kind(nut, f"{words}, spacer balls", spacer_balls=True) for nut, words in _NUTS.items()},
+    "row": Kind(""),
+    **{nut: Kind(nut) for nut in _NUTS},
+    **{f"{nut}+elastic": Kind(nut, elastic=True) for nut in _NUTS},
+    **{f"{nut}+spacers": Kind(nut, spacer_balls=True) for nut in _NUTS},
 }
 #: What only the reference model has modules of: balls with four contacts, which the others do not know, and spacers.
 _OF_REFERENCE = "reference"
@@ -86,7 +80,7 @@ def start_tables() -> Mapping[str, Mapping[str, Any]]:
 def kind_of_start(name: str) -> str:
     """The kind of nut that a start begins with."""
     case = _start_cases()[name]
-    begun = Kind(case.get("nut", {}).get("type", ""), "", elastic="bodies" in case)
+    begun = Kind(case.get("nut", {}).get("type", ""), elastic="bodies" in case)
     return next(k for k, kind in KINDS.items() if (kind.nut, kind.elastic) == (begun.nut, begun.elastic))
 
 

@@ -14,7 +14,7 @@ The values, SI, by name; see :func:`ballscrew.physics.sizing.checks.checks`:
   ``limits.buckling_safety``, ``limits.critical_speed_share``, ``limits.diameter_speed_product``, which is that of the
   make of the nut where none is given.
 
-The words are ``ends`` and ``limit_source``, whose DN value the limit is, and ``names`` of the checks that fail.
+The words are ``ends`` and ``limit_source``, whose DN value the limit is.
 """
 
 from __future__ import annotations
@@ -22,11 +22,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, at_least, at_most, is_nan
-from ballscrew.basis.quantities import Force, Mask
+from ballscrew.basis.quantities import Force
 from ballscrew.physics.equations import life, shaft
 from ballscrew.physics.friction.validity import LARGEST_PRESSURE
 
@@ -243,68 +241,5 @@ CHECKS: tuple[Judgement, ...] = (
             ),
         ),
         source="read",  # makers' limits; that of another nut is an estimate (SpeedLimit.source)
-    ),
-)
-
-
-def _all_checks(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    judged, failing, number = of["checks.judged"], of["checks.failing"], of["checks.all"]
-    fails = failing > 0
-    is_whole = judged == number
-    return {
-        "fails": fails,
-        "fails_of_all": fails & is_whole,
-        "passes": is_whole,
-        "holds": namespace(fails).logical_not(fails),
-        "judged": fails | is_whole,
-        "number_judged": judged,
-        "number": number,
-        "outside_validity": of["outside_validity"],
-        "has_cycle": of["has_cycle"],
-    }
-
-
-def counted(result: Mapping[str, Mapping[str, Any]], given: Mapping[str, Mask] | None = None) -> dict[str, Any]:
-    """How many checks there are, were judged and fail, by what their rows give; nothing where none is judged.
-
-    ``given`` has a mask for each id: what the check needs is given. Without it, what the rows need is.
-    """
-    judged: Any = 0.0
-    failing: Any = 0.0
-    for name, row in result.items():
-        is_judged = row.get("judged", np.bool_(True))
-        is_judged = is_judged if given is None else given[name] & is_judged
-        judged = judged + where(is_judged, 1.0, 0.0)
-        failing = failing + where(is_judged & namespace(row["holds"]).logical_not(row["holds"]), 1.0, 0.0)
-    numbers = {"checks.judged": judged, "checks.failing": failing, "checks.all": float(len(CHECKS))}
-    return numbers if result else {}
-
-
-_COUNT = {"judged": Shown("number_judged"), "all": Shown("number")}
-_IN_FEW_WORDS = (
-    Sentence("fails: {names}", "fails_of_all", {"names": Words("names")}),
-    Sentence("fails: {names}; {judged} of {all} judged", "fails", {"names": Words("names"), **_COUNT}),
-    Sentence("passes", "passes"),
-    Sentence("{judged} of {all} judged, and these hold", places=_COUNT),
-)
-#: The verdict on all checks of a result outside the model's validity.
-OUTSIDE = "{verdict}; outside the model's validity"
-_WITH_VALIDITY = (
-    Sentence(OUTSIDE, "outside_validity", {"verdict": _IN_FEW_WORDS}),
-    *_IN_FEW_WORDS,
-)
-#: All checks in a few words: of ``checks.all`` of them so many judged and so many failing, whose titles are ``names``.
-ALL_CHECKS = Judgement(
-    id="verdict.checks",
-    subject="checks",
-    formula=_all_checks,
-    needs=("checks.judged", "checks.failing", "checks.all"),
-    takes=("outside_validity", "has_cycle"),
-    truths=("outside_validity", "has_cycle"),
-    severity_of_failure="error",
-    sentences=(
-        # of a case with a cycle, which is judged elsewhere
-        Sentence("this operating point for ever: {verdict}", "has_cycle", {"verdict": _WITH_VALIDITY}),
-        *_WITH_VALIDITY,
     ),
 )

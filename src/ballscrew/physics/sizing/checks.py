@@ -16,7 +16,7 @@ from ballscrew.physics.components.nut import Nut, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry, life
-from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, RUNNING_TIME
+from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME
 from ballscrew.physics.sizing.check_table import HOUR as HOUR
 from ballscrew.physics.sizing.check_table import NOT_CHECKED as NOT_CHECKED
 from ballscrew.physics.sizing.check_table import NOT_JUDGED as NOT_JUDGED
@@ -163,13 +163,19 @@ def verdict_of(checks: Sequence[Check], *, passes: str = _PASSES, by_how_much: b
 
 def verdict_at_point(checks: Sequence[Check], *, valid: bool, has_cycle: bool) -> str:
     """The same of an operating point: what is said outside the model's validity, and of a case with a cycle, too."""
-    return _in_few_words(checks, outside_validity=not valid, has_cycle=has_cycle)
+    words = _in_few_words(checks, outside=not valid)
+    # of a case with a cycle, which is judged elsewhere
+    return f"this operating point for ever: {words}" if has_cycle else words
 
 
-def _in_few_words(checks: Sequence[Check], *, by_how_much: bool = False, **said: bool) -> str:
+def _in_few_words(checks: Sequence[Check], *, by_how_much: bool = False, outside: bool = False) -> str:
     names = [failing(check, by_how_much=by_how_much) for check in checks if check.holds is False]
-    counts = {"checks.judged": judged(checks), "checks.failing": len(names), "checks.all": len(checks)}
-    return ALL_CHECKS.text(ALL_CHECKS.finds(counts | said) or {}, {"names": ", ".join(names)})
+    count, number = judged(checks), len(checks)
+    if names:
+        words = f"fails: {', '.join(names)}" + ("" if count == number else f"; {count} of {number} judged")
+    else:
+        words = "passes" if count == number else f"{count} of {number} judged, and these hold"
+    return f"{words}; outside the model's validity" if outside else words
 
 
 def failing(check: Check, *, by_how_much: bool = True) -> str:

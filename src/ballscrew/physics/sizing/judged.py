@@ -18,24 +18,20 @@ from typing import Any
 from ballscrew.basis import judgements
 from ballscrew.basis.judgements import Judgement
 from ballscrew.physics.friction.verdicts import VERDICTS, WARNINGS
-from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, NOT_CHECKED, counted
+from ballscrew.physics.sizing.check_table import CHECKS, NOT_CHECKED
 
-#: All rows: verdicts, warnings, checks and the verdict on the checks, each group in the order in which it is said.
-JUDGED: tuple[Judgement, ...] = (*VERDICTS, *WARNINGS, *CHECKS, ALL_CHECKS)
+#: All rows: verdicts, warnings and checks, each group in the order in which it is said.
+JUDGED: tuple[Judgement, ...] = (*VERDICTS, *WARNINGS, *CHECKS)
 
 
-def judged(values: Mapping[str, Any], given: Mapping[str, Any] | None = None) -> dict[str, Mapping[str, Any]]:
+def judged(values: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
     """The masks and numbers of each row by its id, of those whose needs are among the values.
 
-    A value that is None is not given; what the verdict on the checks needs is counted, if there is any. Where a value
-    that is on a tape may be missing, ``given`` has a mask for each check by its id, and those for which it is false are
-    not counted. Numbers are in SI; truth values are masks, and a number that stands for one is to be compared with zero
-    first. The ids are those of :data:`JUDGED`, and what a row gives is named in its document, ``masks`` and
-    ``numbers``: see :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
+    A value that is None is not given. Numbers are in SI; truth values are masks, and a number that stands for one is to
+    be compared with zero first. The ids are those of :data:`JUDGED`, and what a row gives is named in its document,
+    ``masks`` and ``numbers``: see :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
     """
-    result = judgements.judged(CHECKS, values)
-    of_all = {name: values.get(name) for name in ALL_CHECKS.takes} | counted(result, given)
-    return judgements.judged((*VERDICTS, *WARNINGS), values) | result | judgements.judged([ALL_CHECKS], of_all)
+    return judgements.judged(JUDGED, values)
 
 
 def outputs(result: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
@@ -57,6 +53,6 @@ def documents() -> dict[str, Any]:
     a sentence a ``number`` is shown in the unit ``shown_in`` (from ``unit``) with so many ``digits`` or ``decimals``,
     ``words`` are given, and a ``constant`` stands as it is.
     """
-    tables = {"verdicts": VERDICTS, "warnings": WARNINGS, "checks": CHECKS, "all_checks": (ALL_CHECKS,)}
+    tables = {"verdicts": VERDICTS, "warnings": WARNINGS, "checks": CHECKS}
     values: dict[str, Any] = {name: [row.document() for row in rows] for name, rows in tables.items()}
     return values | {"not_checked": NOT_CHECKED}
