@@ -117,7 +117,7 @@ class Alone {
     const key = JSON.stringify(tables);
     const before = this.#runs.get(key);
     if (before) return before;
-    const made = read(this.contents, this.#engine, tables).then((one) => this.#computed(one));
+    const made = read(this.contents, this.#engine, tables).then((subject) => this.#computed(subject));
     this.#runs.set(key, made);
     made.catch(() => this.#runs.delete(key));
     const [oldest] = this.#runs.keys();
@@ -128,19 +128,19 @@ class Alone {
   /**
    * The outputs at points.
    *
-   * @param {CaseAlone} one
+   * @param {CaseAlone} subject
    * @param {Record<string, number | ArrayLike<number>>} changes
    * @param {number} count
    */
-  #at(one, changes, count) {
-    return this.#engine.evaluate(one.structure, { ...one.inputs, ...changes }, count);
+  #at(subject, changes, count) {
+    return this.#engine.evaluate(subject.structure, { ...subject.inputs, ...changes }, count);
   }
 
-  /** @param {CaseAlone} one */
-  #computed(one) {
+  /** @param {CaseAlone} subject */
+  #computed(subject) {
     const { contents } = this;
-    const { structure, start, given, listed, inputs } = one;
-    const point = { structure, start, inputs: { ...one.values, ...inputs }, given, listed };
+    const { structure, start, given, listed, inputs } = subject;
+    const point = { structure, start, inputs: { ...subject.values, ...inputs }, given, listed };
     const judged = judgedAt(this.#engine, contents, point);
     const { verdicts, warnings, checks } = recordsOf(contents, judged);
     const said = (/** @type {any[]} */ records) =>
@@ -148,13 +148,13 @@ class Alone {
     const { outputs } = judged.sources;
     const model = structure.split("/")[0];
     const run = {
-      inputs: inputsOf(contents, one),
-      results: this.#results(one, outputs),
+      inputs: inputsOf(contents, subject),
+      results: this.#results(subject, outputs),
       verdicts: said(verdicts),
       warnings: said(warnings),
       checks: [],
       provenance: { version: contents.version, model, references: contents.models[model].references },
-      words: { title: titleOf(one), verdicts: [], assumed: [], rigidity: [], rules: [] },
+      words: { title: titleOf(subject), verdicts: [], assumed: [], rigidity: [], rules: [] },
     };
     const lines = said(checks).map((record, place) => ({
       ...record,
@@ -166,42 +166,42 @@ class Alone {
       judged: lines.filter(({ holds }) => holds !== null).length,
       holds: lines.every(({ holds }) => holds === true),
     };
-    if (one.kind !== "row") Object.assign(run, { loads: this.#loads(one, outputs) });
-    return { one, outputs, run, check, flooded: floodedTorqueIn(run.verdicts) ?? floodedTorqueIn(run.warnings) };
+    if (subject.kind !== "row") Object.assign(run, { loads: this.#loads(subject, outputs) });
+    return { subject, outputs, run, check, flooded: floodedTorqueIn(run.verdicts) ?? floodedTorqueIn(run.warnings) };
   }
 
   /**
    * The results as a run has them: those of the contacts, the parts of the torque and the conditions in tables of their own.
    *
-   * @param {CaseAlone} one
+   * @param {CaseAlone} subject
    * @param {Record<string, number | null | undefined>} outputs
    */
-  #results(one, outputs) {
-    const { race_names: races, results } = this.contents;
+  #results(subject, outputs) {
+    const { race_names: races, results: known } = this.contents;
     /** @type {Tables} */
-    const found = { contributions: {}, validity: {}, screw: {}, nut: {} };
+    const results = { contributions: {}, validity: {}, screw: {}, nut: {} };
     for (const [name, value] of Object.entries(outputs)) {
       const [first, ...rest] = name.split("_");
       const inner = rest.join("_");
-      if (first === "contribution") found.contributions[inner] = plain(value ?? undefined);
-      else if (first === "validity") found.validity[inner] = value === 1;
+      if (first === "contribution") results.contributions[inner] = plain(value ?? undefined);
+      else if (first === "validity") results.validity[inner] = value === 1;
       else if ((first === "screw" || first === "nut") && races.includes(inner))
-        found[first][inner] = plain(value ?? undefined);
-      else if (Object.hasOwn(results, name)) found[name] = plain(value ?? undefined);
+        results[first][inner] = plain(value ?? undefined);
+      else if (Object.hasOwn(known, name)) results[name] = plain(value ?? undefined);
     }
-    found.valid = outputs.valid === 1;
-    found.self_locking = outputs.self_locking === 1;
-    if (one.kind === "row") found.rigidity = undefined;
-    else for (const name of OF_ROWS) delete found[name];
-    const [load, speed] = [Math.abs(one.inputs[LOAD]), Math.abs(one.inputs[SPEED])];
+    results.valid = outputs.valid === 1;
+    results.self_locking = outputs.self_locking === 1;
+    if (subject.kind === "row") results.rigidity = undefined;
+    else for (const name of OF_ROWS) delete results[name];
+    const [load, speed] = [Math.abs(subject.inputs[LOAD]), Math.abs(subject.inputs[SPEED])];
     const signs = QUADRANTS.map(([, ofLoad, ofSpeed]) => [ofLoad, ofSpeed]);
     const columns = {
       [LOAD]: [...signs.map(([sign]) => sign * load), 0],
-      [SPEED]: [...signs.map(([, sign]) => sign * speed), one.inputs[SPEED]],
+      [SPEED]: [...signs.map(([, sign]) => sign * speed), subject.inputs[SPEED]],
     };
-    const around = this.#at(one, columns, signs.length + 1);
-    if (one.kind !== "row") found.preload_drag = plain(around.screw_torque[signs.length]);
-    found.quadrants = Object.fromEntries(
+    const around = this.#at(subject, columns, signs.length + 1);
+    if (subject.kind !== "row") results.preload_drag = plain(around.screw_torque[signs.length]);
+    results.quadrants = Object.fromEntries(
       QUADRANTS.map(([name, load_sign, speed_sign], place) => [
         name,
         {
@@ -212,12 +212,12 @@ class Alone {
         },
       ]),
     );
-    return found;
+    return results;
   }
 
-  /** The loads of a nut: of each ball where its bodies are elastic. @param {CaseAlone} one @param {Tables} outputs */
-  #loads(one, outputs) {
-    const balls = this.#engine.balls(one.structure, one.inputs);
+  /** The loads of a nut: of each ball where its bodies are elastic. @param {CaseAlone} subject @param {Tables} outputs */
+  #loads(subject, outputs) {
+    const balls = this.#engine.balls(subject.structure, subject.inputs);
     const names = ["deflection", "rigidity", "remaining_preload", "lift_off_load"];
     return {
       ...Object.fromEntries(names.map((name) => [name, plain(outputs[name])])),
@@ -228,32 +228,36 @@ class Alone {
   /**
    * The curves around the operating point, each computed when it is asked for.
    *
-   * @param {{ one: CaseAlone, outputs: Tables, flooded: number | undefined }} own
+   * @param {{ subject: CaseAlone, outputs: Tables, flooded: number | undefined }} own
    */
-  #curves({ one, outputs, flooded }) {
-    const axes = axesAround(this.#axesOf(one), { axial_load: one.inputs[LOAD], screw_speed: one.inputs[SPEED] });
-    const isNut = one.kind !== "row";
+  #curves({ subject, outputs, flooded }) {
+    const axes = axesAround(this.#axesOf(subject), {
+      axial_load: subject.inputs[LOAD],
+      screw_speed: subject.inputs[SPEED],
+    });
+    const isNut = subject.kind !== "row";
     const films = isNut ? ["minimum_film_parameter"] : ["screw_film_parameter", "nut_film_parameter"];
     const pressures = isNut ? ["maximum_pressure"] : ["screw_maximum_pressure", "nut_maximum_pressure"];
     const parts = Object.keys(outputs).filter((name) => name.startsWith("contribution_"));
     const bath = flooded === undefined ? [] : [FLOODED];
-    const follows = one.grade && one.inputs[LOAD] && one.inputs[SPEED] && !one.kept.includes("viscosity");
-    const temperatures = [...new Set([COLD, one.temperature, HOT])].sort((a, b) => a - b);
-    const constant = one.inputs[REPLENISHMENT];
+    const follows =
+      subject.grade && subject.inputs[LOAD] && subject.inputs[SPEED] && !subject.kept.includes("viscosity");
+    const temperatures = [...new Set([COLD, subject.temperature, HOT])].sort((a, b) => a - b);
+    const constant = subject.inputs[REPLENISHMENT];
     const hot = {
       [TEMPERATURE]: temperatures,
-      [SPEED]: [0, one.inputs[SPEED]],
+      [SPEED]: [0, subject.inputs[SPEED]],
       ...(constant && { [REPLENISHMENT]: [0, constant] }),
     };
     return {
-      over_speed: () => this.#swept(one, axes.over_speed, ["screw_torque", ...parts, ...films, ...bath]),
-      over_both: () => this.#swept(one, axes.over_both, ["efficiency", "back_driving_efficiency"]),
-      over_load: () => this.#swept(one, axes.over_load, pressures),
-      ...(follows && { cold_and_hot: () => this.#swept(one, hot, ["screw_torque", "holding_torque"]) }),
+      over_speed: () => this.#swept(subject, axes.over_speed, ["screw_torque", ...parts, ...films, ...bath]),
+      over_both: () => this.#swept(subject, axes.over_both, ["efficiency", "back_driving_efficiency"]),
+      over_load: () => this.#swept(subject, axes.over_load, pressures),
+      ...(follows && { cold_and_hot: () => this.#swept(subject, hot, ["screw_torque", "holding_torque"]) }),
     };
   }
 
-  /** @param {CaseAlone} one @returns {CaseModule["axes"]} */
+  /** @param {CaseAlone} subject @returns {CaseModule["axes"]} */
   #axesOf({ kind }) {
     return this.contents.axes[kind === "row" ? "row" : "nut"];
   }
@@ -261,11 +265,11 @@ class Alone {
   /**
    * A sweep over axes, by the names of their inputs.
    *
-   * @param {CaseAlone} one
+   * @param {CaseAlone} subject
    * @param {Axes} axes
    * @param {string[]} outputs
    */
-  #swept(one, axes, outputs) {
+  #swept(subject, axes, outputs) {
     const names = Object.keys(axes);
     let points = [/** @type {Record<string, number>} */ ({})];
     for (const name of names)
@@ -276,18 +280,18 @@ class Alone {
       const values = Float64Array.from(points, (point) => point[name]);
       if (name !== TEMPERATURE) changes[name] = values;
       else {
-        for (const [input, numbers] of Object.entries(this.#engine.oil(one.grade, values, points.length))) {
-          if (input in one.inputs && !one.kept.includes(input)) changes[input] = numbers;
+        for (const [input, numbers] of Object.entries(this.#engine.oil(subject.grade, values, points.length))) {
+          if (input in subject.inputs && !subject.kept.includes(input)) changes[input] = numbers;
         }
       }
     }
-    const found = this.#at(one, changes, points.length);
+    const numbers = this.#at(subject, changes, points.length);
     if (outputs.includes(FLOODED)) {
-      found[FLOODED] = this.#at(one, { ...changes, ...FULL_BATH }, points.length).screw_torque;
+      numbers[FLOODED] = this.#at(subject, { ...changes, ...FULL_BATH }, points.length).screw_torque;
     }
     const sizes = names.map((name) => axes[name].length);
     const column = (/** @type {string} */ name) => {
-      const flat = Array.from(found[name], (value) => (name === "valid" ? value === 1 : plain(value)));
+      const flat = Array.from(numbers[name], (value) => (name === "valid" ? value === 1 : plain(value)));
       return { values: nested(flat, sizes), ...this.#described(name) };
     };
     return {
@@ -309,23 +313,25 @@ class Alone {
    * @param {AbortSignal} [signal]
    */
   async #sweep({ case: tables, vary, outputs, band }, signal) {
-    const { one } = await this.#ran(tables);
+    const { subject } = await this.#ran(tables);
     const { fields } = this.contents;
-    const unknown = Object.keys(vary).find((name) => !(name in one.inputs) && !(name === TEMPERATURE && one.grade));
+    const unknown = Object.keys(vary).find(
+      (name) => !(name in subject.inputs) && !(name === TEMPERATURE && subject.grade),
+    );
     if (unknown !== undefined) throw new Problem({ title: `${unknown} is not varied by a page without a server.` });
     const axes = Object.fromEntries(Object.entries(vary).map(([name, text]) => [name, valuesIn(text, fields[name])]));
-    if (!band) return this.#swept(one, axes, outputs);
-    const fan = await this.#banded(one, "fan", axes[SPEED], signal);
+    if (!band) return this.#swept(subject, axes, outputs);
+    const fan = await this.#banded(subject, "fan", axes[SPEED], signal);
     const ends = { low: fan.lows.map(plain), high: fan.highs.map(plain) };
-    const swept = this.#swept(one, axes, outputs);
+    const swept = this.#swept(subject, axes, outputs);
     Object.assign(swept.outputs.screw_torque, ends);
     return { ...swept, band: { level: this.contents.bands.level } };
   }
 
   /** The band at the operating point. @param {Tables} tables @param {AbortSignal} [signal] */
   async #band(tables, signal) {
-    const { one, run } = await this.#ran(tables);
-    const { ends, count, invalid } = await this.#banded(one, "point", [], signal);
+    const { subject, run } = await this.#ran(tables);
+    const { ends, count, invalid } = await this.#banded(subject, "point", [], signal);
     const { bands } = this.contents;
     const { low, high } = ends.screw_torque;
     const shown = (/** @type {number} */ value) => units.formatted("screw_torque", value);
@@ -347,7 +353,7 @@ class Alone {
       id: "band.laws",
       text: "Laws are not varied here: the low end is usually 5 to 25 % higher than that of inputs and laws in the program.",
     };
-    const question = this.#asked(one, "point", []);
+    const question = this.#asked(subject, "point", []);
     const makers = makersIn(bands, question);
     const of = `${count} samples of ${uncertainIn(bands, question)?.length ?? 0} uncertain inputs${makers.length ? `, and the calibrations of ${makers.length} makers` : ""}. ${share.join(" ")}`;
     return {
@@ -358,41 +364,43 @@ class Alone {
     };
   }
 
-  /** What a band is asked of. @param {CaseAlone} one @param {"point" | "fan"} kind @param {number[]} speeds */
+  /** What a band is asked of. @param {CaseAlone} subject @param {"point" | "fan"} kind @param {number[]} speeds */
   #asked({ structure, start, inputs, grade, temperature, places }, kind, speeds) {
     const kept = Object.entries(places).flatMap(([path, { input }]) => (path.startsWith("lubricant.") ? [input] : []));
     return { structure, start, inputs, grade, temperature, kept, kind, speeds };
   }
 
-  /** @param {CaseAlone} one @param {"point" | "fan"} kind @param {number[]} speeds @param {AbortSignal} [signal] @returns {Promise<any>} */
-  async #banded(one, kind, speeds, signal = new AbortController().signal) {
-    const found = await this.#banding.ask(this.#asked(one, kind, speeds), signal);
-    if (!found) throw new Problem({ title: "This page has no band of such a case; the program has one." });
-    return found;
+  /** @param {CaseAlone} subject @param {"point" | "fan"} kind @param {number[]} speeds @param {AbortSignal} [signal] @returns {Promise<any>} */
+  async #banded(subject, kind, speeds, signal = new AbortController().signal) {
+    const band = await this.#banding.ask(this.#asked(subject, kind, speeds), signal);
+    if (!band) throw new Problem({ title: "This page has no band of such a case; the program has it." });
+    return band;
   }
 
   /** The ball between its grooves. @param {Tables} tables */
   async #drawing(tables) {
-    const { one, outputs } = await this.#ran(tables);
-    const inputs = { ...one.values, ...one.inputs };
-    return ballDrawing(ballAt(this.#engine, this.contents, { structure: one.structure, inputs, outputs }));
+    const { subject, outputs } = await this.#ran(tables);
+    const inputs = { ...subject.values, ...subject.inputs };
+    return ballDrawing(ballAt(this.#engine, this.contents, { structure: subject.structure, inputs, outputs }));
   }
 
   /** What computes the case while something is moved. @param {Tables} tables */
   async #module(tables) {
-    const { one } = await this.#ran(tables);
+    const { subject } = await this.#ran(tables);
     const { contents } = this;
-    const spec = contents.structures[one.structure];
-    const places = Object.entries(one.places).filter(([path]) => path !== "operation.screw_speed" || !isOfNut(tables));
+    const spec = contents.structures[subject.structure];
+    const places = Object.entries(subject.places).filter(
+      ([path]) => path !== "operation.screw_speed" || !isOfNut(tables),
+    );
     const { file, grades } = contents.oils;
     return {
       state: "ready",
       structure: spec,
       solver: "by_ball" in spec ? contents.solver : null,
-      oil: one.grade ? { file, ...grades[one.grade] } : null,
-      values: Object.fromEntries(Object.entries(one.inputs).map(([name, value]) => [name, plain(value)])),
+      oil: subject.grade ? { file, ...grades[subject.grade] } : null,
+      values: Object.fromEntries(Object.entries(subject.inputs).map(([name, value]) => [name, plain(value)])),
       places: Object.fromEntries(places),
-      axes: this.#axesOf(one),
+      axes: this.#axesOf(subject),
     };
   }
 }
@@ -427,15 +435,15 @@ function valuesIn(text, { unit }) {
   return values.map((value) => (written && unit !== "1" ? units.toSI(value, written.trim(), unit) : value));
 }
 
-/** The inputs in their tables, those of the laws of the model among them. @param {any} contents @param {CaseAlone} one */
+/** The inputs in their tables, those of the laws of the model among them. @param {any} contents @param {CaseAlone} subject */
 function inputsOf(contents, { structure, inputs, given, grade, temperature, listed }) {
-  const found = structuredClone(contents.templates[structure]);
-  for (const [name, value] of Object.entries(inputs)) put(found, contents.fields[name]?.path, plain(value));
-  found.lubricant = { ...found.lubricant, ...(grade && { grade, temperature }) };
-  for (const [name, value] of Object.entries(listed)) if (value !== null) put(found, `screw.${name}`, value);
+  const tables = structuredClone(contents.templates[structure]);
+  for (const [name, value] of Object.entries(inputs)) put(tables, contents.fields[name]?.path, plain(value));
+  tables.lubricant = { ...tables.lubricant, ...(grade && { grade, temperature }) };
+  for (const [name, value] of Object.entries(listed)) if (value !== null) put(tables, `screw.${name}`, value);
   for (const [name, value] of Object.entries(given))
-    put(found, name.includes(".") ? name : `installation.${name}`, value);
-  return found;
+    put(tables, name.includes(".") ? name : `installation.${name}`, value);
+  return tables;
 }
 
 /** @param {Tables} tables @param {string | undefined} path @param {unknown} value */
@@ -451,7 +459,7 @@ function put(tables, path, value) {
   place[last] = value;
 }
 
-/** The operating point and the model of a case in words. @param {CaseAlone} one */
+/** The operating point and the model of a case in words. @param {CaseAlone} subject */
 function titleOf({ inputs, structure, tables }) {
   const shown = [LOAD, SPEED].map((name) => units.formatted(name, inputs[name]));
   const { type } = tables.nut ?? {};
