@@ -2,7 +2,6 @@
 
 The values, SI, by name; see :func:`ballscrew.physics.sizing.checks.checks`:
 
-- ``nominal_diameter`` of the shaft, the pitch circle where none is listed;
 - ``screw_speed`` of either sign, ``pitch_circle_diameter``, ``root_diameter``, ``young_modulus`` of the shaft;
 - magnitudes of loads, at one operating point those of :func:`loads_at_point`: ``half_load`` and ``other_half_load``,
   the axial forces on the loaded and on the relieved flanks at the mean load, which tire the screw, the other zero where
@@ -32,8 +31,6 @@ from ballscrew.physics.equations import life, shaft
 from ballscrew.physics.friction.validity import LARGEST_PRESSURE
 
 HOUR = 3600.0
-#: Unsupported length over diameter above which a shaft is called slender: a rule of thumb.
-MOST_SLENDER = 50.0
 #: What is to be given where no running time is asked for.
 RUNNING_TIME = "limits.running_time"
 
@@ -247,28 +244,6 @@ CHECKS: tuple[Judgement, ...] = (
         ),
         source="read",  # makers' limits; that of another nut is an estimate (SpeedLimit.source)
     ),
-)
-
-
-def _slenderness(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    ratio = of["unsupported_length"] / of["nominal_diameter"]
-    return {"said": ratio > MOST_SLENDER, "value": ratio, "limit": MOST_SLENDER}
-
-
-#: A shaft so slender that it sags and is hard to make straight: a note, and no check.
-SLENDERNESS = Judgement(
-    id="verdict.slenderness",
-    subject="unsupported_length",
-    formula=_slenderness,
-    needs=("unsupported_length", "nominal_diameter"),
-    sentences=(
-        Sentence(
-            "slender: the unsupported length is {ratio} times the diameter, more than {limit} (a rule of thumb): the "
-            "shaft sags, and is hard to make straight; ask its maker",
-            places={"ratio": Shown("value", digits=3), "limit": Shown("limit", digits=3)},
-        ),
-    ),
-    source="estimate",
 )
 
 

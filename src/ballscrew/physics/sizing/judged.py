@@ -18,10 +18,10 @@ from typing import Any
 from ballscrew.basis import judgements
 from ballscrew.basis.judgements import Judgement
 from ballscrew.physics.friction.verdicts import VERDICTS, WARNINGS
-from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, NOT_CHECKED, SLENDERNESS, counted
+from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, NOT_CHECKED, counted
 
 #: All rows: verdicts, warnings, checks and the verdict on the checks, each group in the order in which it is said.
-JUDGED: tuple[Judgement, ...] = (*VERDICTS, SLENDERNESS, *WARNINGS, *CHECKS, ALL_CHECKS)
+JUDGED: tuple[Judgement, ...] = (*VERDICTS, *WARNINGS, *CHECKS, ALL_CHECKS)
 
 
 def judged(values: Mapping[str, Any], given: Mapping[str, Any] | None = None) -> dict[str, Mapping[str, Any]]:
@@ -35,11 +35,7 @@ def judged(values: Mapping[str, Any], given: Mapping[str, Any] | None = None) ->
     """
     result = judgements.judged(CHECKS, values)
     of_all = {name: values.get(name) for name in ALL_CHECKS.takes} | counted(result, given)
-    return (
-        judgements.judged((*VERDICTS, SLENDERNESS, *WARNINGS), values)
-        | result
-        | judgements.judged([ALL_CHECKS], of_all)
-    )
+    return judgements.judged((*VERDICTS, *WARNINGS), values) | result | judgements.judged([ALL_CHECKS], of_all)
 
 
 def outputs(result: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
@@ -61,6 +57,6 @@ def documents() -> dict[str, Any]:
     a sentence a ``number`` is shown in the unit ``shown_in`` (from ``unit``) with so many ``digits`` or ``decimals``,
     ``words`` are given, and a ``constant`` stands as it is.
     """
-    tables = {"verdicts": (*VERDICTS, SLENDERNESS), "warnings": WARNINGS, "checks": CHECKS, "all_checks": (ALL_CHECKS,)}
+    tables = {"verdicts": VERDICTS, "warnings": WARNINGS, "checks": CHECKS, "all_checks": (ALL_CHECKS,)}
     values: dict[str, Any] = {name: [row.document() for row in rows] for name, rows in tables.items()}
     return values | {"not_checked": NOT_CHECKED}

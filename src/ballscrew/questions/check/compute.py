@@ -10,7 +10,6 @@ from typing import Annotated, Any, NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.judgements import said
 from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantities_of
 from ballscrew.basis.records import Record, Severity
 from ballscrew.cases.case_files import case_file, descriptions, nut_tables
@@ -21,7 +20,7 @@ from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.check_table import SLENDERNESS, half_loads
+from ballscrew.physics.sizing.check_table import half_loads
 from ballscrew.physics.sizing.checks import Check, all_hold, checks, verdict_at_point
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
@@ -123,17 +122,7 @@ class Checked:
         holds = all_hold(self.checks)
         severity: Severity = "error" if holds is False else "warning" if self.case.unlikely else "info"
         whole = Record(text=self.verdict, id="verdict.checks", subject="checks", severity=severity, holds=holds)
-        return [whole, *self.run.verdicts, *self.slenderness]
-
-    @property
-    def slenderness(self) -> list[Record]:
-        """A note on a shaft that is too slender."""
-        row, mounted = self.case.row, self.case.installation
-        values = {
-            "nominal_diameter": self.case.screw.pitch_circle_diameter if row is None else row.nominal_diameter,
-            "unsupported_length": None if mounted is None else mounted.unsupported_length,
-        }
-        return said([SLENDERNESS], values, {})
+        return [whole, *self.run.verdicts]
 
     def check(self, name: str) -> Check:
         """The check of that name."""

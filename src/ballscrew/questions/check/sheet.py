@@ -32,7 +32,7 @@ def sheet(screw: Checked) -> Sheet:
     """All that people see of the checks of one screw."""
     case = screw.case
     source = "" if case.row is None else f" ({case.row.source})"
-    records = [*([] if screw.heating is None else screw.heating.records), *screw.run.verdicts, *screw.slenderness]
+    records = [*([] if screw.heating is None else screw.heating.records), *screw.run.verdicts]
     return Sheet(
         f"{screw.name}{source}: {descriptions.title(screw.run.case)}",
         [
