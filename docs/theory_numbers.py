@@ -44,13 +44,14 @@ def numbers() -> dict[str, str]:
         }
     found |= _of_paper(PAPER.result(REFERENCE), PAPER.screw) | _of_catalogue(CATALOGUE.result(REFERENCE))
     offset = float(friction.offset_from_traction(0.0))
-    plain = float(transmission.classical_efficiency(CATALOGUE.screw.lead_angle, math.atan(0.1)))
+    plain = float(transmission.classical_efficiency(CATALOGUE.screw.lead_angle, math.atan(0.2)))
     found |= {
         "t_offset": f"{offset:.4f}",
         "t_slow_film": f"{2**0.68:.2f}",
         "t_heavy_film": f"{100 * (1 - 2**-0.073):.0f}",
         "t_lift": f"{float(preload.lift_off_load(1.0)):.2f}",
         "t_plain": f"{plain:.2f}",
+        "t_plain_torque": f"{float(CATALOGUE.result(REFERENCE).efficiency) / plain:.1f}",
         "t_centre": f"{1e3 * float(_centre_distance()):.2f}",
         "t_cold": _film_at(0.0),
         "t_warm": _film_at(70.0),

@@ -84,8 +84,9 @@ def summary() -> str:
         share = "no band" if entry.share_in_band is None else _percent(entry.share_in_band)
         scatter = f"{entry.std_ratio:.3f}" if len(entry.counted) > 1 else "–"
         who = entry.calibration or "uncalibrated"
-        ratio = _spread(entry) if entry.data.alternatives else f"{entry.mean_ratio:.3f}"
-        scatter = "alternatives" if entry.data.alternatives else scatter
+        is_range = entry.data.alternatives or entry.data.bound
+        ratio = _spread(entry) if is_range else f"{entry.mean_ratio:.3f}"
+        scatter = "alternatives" if entry.data.alternatives else "upper bounds" if is_range else scatter
         lines.append([entry.data.name, who, str(len(entry.counted)), ratio, scatter, share])
     return _table(lines)
 
@@ -171,6 +172,7 @@ SHORT = {
     "rexroth-double-nut": "Rexroth: no-load torque of double nuts",
     "rexroth-single-nut": "Rexroth: no-load torque of single nuts, oversize balls",
     "hiwin-stock": "HIWIN: drag of stocked nuts, preload not printed, nothing fitted",
+    "thk-stock": "THK: drag of small stocked nuts, preload not printed, an upper bound",
     "thk-jis": "THK: no-load torque of a double nut, not fitted",
     "xjtu": "XJTU: torque of two new screws, measured, against sizes that could be theirs",
     "emps": "EMPS: torque of a whole axis, of which the screw is a part",
@@ -432,6 +434,9 @@ def numbers() -> dict[str, str]:
         values[f"bearings_{maker.lower()}_torque"] = f"{min(torques):.1f} to {max(torques):.1f}"
     for key, name in (("emps", "emps"), ("actuator", "thk-kr4620a")):
         values[key] = "{:.2f} to {:.2f}".format(*by_key[name, False].range_ratio)
+    small = by_key["thk-stock", False].groups
+    for key, group in zip(("small_full", "small_spacers"), small.values(), strict=True):
+        values[key] = "{:.2f} to {:.2f}".format(*group.range_ratio)
     double = [one.range_ratio for name, one in by_key["emps", False].groups.items() if name.startswith("double")]
     values["emps_double"] = f"{min(low for low, _ in double):.2f} to {max(high for _, high in double):.2f}"
     return {f"validation_{key}": value for key, value in values.items()}
@@ -479,7 +484,7 @@ def _mean(entry) -> str:
 
 
 def _spread(entry) -> str:
-    if entry.data.alternatives:
+    if entry.data.alternatives or entry.data.bound:
         return "{:.2f} to {:.2f}".format(*entry.range_ratio)
     return f"{entry.mean_ratio:.2f} ± {entry.std_ratio:.2f}" if len(entry.counted) > 1 else f"{entry.mean_ratio:.2f}"
 

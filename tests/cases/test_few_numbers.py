@@ -82,3 +82,5 @@ def test_the_nuts_of_thk_are_read_and_none_is_odd():
     # by the lead, as the rows of one lead have one pitch circle; THK prints no ball
     assert all(0.3 < row.ball_diameter / row.lead < 0.7 for row in rows.values())
     assert len(rows.notes) == 1
+    # one groove, whatever the nut: by its rating alone each row had another ball, 5.1 mm to 5.8 mm
+    assert {row.ball_diameter for row in rows.values() if " 4010-" in row.name} == {0.00635}

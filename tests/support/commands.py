@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[2]
 FORK_SERVER = Path(__file__).with_name("fork_server.py")
 
 #: Warnings of libraries that end any command: where they are due, an answer says in words what has no value.
-ERRORS = ("RuntimeWarning", "FutureWarning")
+ERRORS = ("Warning",)
 
 _SMALL_FILES = """
 import os, resource, sys

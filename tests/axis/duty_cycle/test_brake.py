@@ -74,6 +74,15 @@ def test_friction_of_one_efficiency_helps_by_what_the_balance_of_power_gives():
     assert alone.safety == pytest.approx(1 / 0.9 - 1, rel=1e-12)
 
 
+def test_a_motor_that_holds_without_current_keeps_the_axis_at_rest_and_spares_no_brake():
+    """Friction of one efficiency holds 1/0.9 − 1 of the load; in motion a detent gives back what it takes."""
+    rest = 2 - 1 / 0.9
+    barely, little = (upright(0.9, motor_torque=share * rest * WEIGHT) for share in (1.001, 0.999))
+    assert (barely.starts, barely.falls, little.starts) == (False, True, True)
+    assert barely.brake_torque == little.brake_torque == pytest.approx(2 * WEIGHT, rel=1e-12)
+    assert barely.conditions[0].safety == pytest.approx(1 + 0.001 * rest, rel=1e-12)
+
+
 def test_a_process_force_adds_to_the_weight():
     arm = ROW.lead / (2 * math.pi) / RATIO
     assert upright(0.9, process_force=500.0).load_torque == pytest.approx(WEIGHT + 500.0 * arm, rel=1e-12)

@@ -130,7 +130,7 @@ def test_what_the_documentation_says(found, name, kind, n, mean, share):
 
 def test_only_friction_is_calibrated(found):
     names = {name for name, kind in found if kind is not None}
-    of_nuts = {"rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-jis", "xjtu"}
+    of_nuts = {"rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-stock", "thk-jis", "xjtu"}
     assert names == {*of_nuts, "chart-friction", "emps", "thk-kr4620a"}
 
 

@@ -14,7 +14,7 @@ from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.validate import compute as validation
 
 REFERENCE = FrictionModel.reference()
-WHOLES = {name: data for name, data in SETS.items() if data.bound}
+WHOLES = {name: data for name, data in SETS.items() if data.bound and data.alternatives}
 
 
 def entry(name):
@@ -85,6 +85,20 @@ def test_the_part_is_less_than_the_whole(axis, actuator):
     assert actuator.share_in_band == 1
     double = [group for name, group in axis.groups.items() if name.startswith("double")]
     assert [group.share_in_band for group in double] == [1, 1]
+
+
+def test_stocked_nuts_of_an_unknown_preload_have_an_upper_bound():
+    """As printed; each row at a medium preload over the greatest drag of its range."""
+    data = SETS["thk-stock"]
+    rows = {values["name"].partition(" ")[0]: values for values in validation.shipped_rows(data)}
+    assert len(rows) == 19
+    assert sum(values["spacer_balls"] == "yes" for values in rows.values()) == 10
+    (point,) = data.evaluate(REFERENCE, rows["BNK1510-5.6"], data.conditions)
+    assert (point.band, point.group) == ((0.098, 0.0, 0.098), "single, spacer balls")
+    (in_range,) = SETS["hiwin-stock"].evaluate(REFERENCE, rows["BNK1510-5.6"], data.conditions)
+    assert in_range.band[1:] == (0.02, 0.098)
+    assert point.definitions["at_5_percent"] == pytest.approx(in_range.definitions["at_5_percent"] * 0.059 / 0.098)
+    assert point.definitions["at_5_percent"] < point.ratio < point.definitions["at_8_percent"] < 1
 
 
 def test_a_whole_is_a_bound_and_no_mean():

@@ -19,6 +19,7 @@ from ballscrew.questions.run.sheet import stiffness_fields
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
+from support.drive_case import drive_case
 
 EXAMPLES = ROOT / "examples"
 
@@ -44,6 +45,37 @@ def test_ratings_are_on_every_face(found):
         assert schema_of(Rated)[name]["description"].startswith(quantity.info.meaning)
         assert quantity.info.meaning in words
         assert {units.heading(quantity), units.heading(quantity, f"{name} by geometry")} <= set(headings)
+
+
+MOUNTED = """
+[motor]
+rated_torque = "9 N m"
+peak_torque = "9 N m"
+largest_speed = "3000 rpm"
+holding_torque = "{held} N m"
+[installation]
+unsupported_length = "{length} mm"
+ends = "fixed-supported"
+"""
+
+
+def test_what_the_motor_holds_and_a_slender_shaft_are_on_every_face(tmp_path):
+    path = tmp_path / "case.toml"
+
+    def told(held, length):
+        path.write_text(drive_case(more=MOUNTED.format(held=held, length=length)), encoding="utf-8")
+        checked = one(str(path), None, Options({}, (), None), keep_going=False)[0]
+        records = {record["id"]: record for record in document.document(checked)["verdicts"]}
+        assert all(record["text"] in " ".join(terminal.text(sheet(checked)).split()) for record in records.values())
+        return records, checked.run.at_rest.holding_torque
+
+    records, needed = told(0, 2000)
+    assert needed > 0
+    assert "verdict.slenderness" not in records  # 2 m are 50 times 40 mm
+    assert (records["verdict.motor_holds"]["holds"], records["verdict.motor_holds"]["limit"]) == (False, needed)
+    records, _ = told(1.01 * needed, 2001)
+    assert records["verdict.motor_holds"]["holds"]
+    assert records["verdict.slenderness"]["value"] == pytest.approx(2001 / 40)
 
 
 def test_sizes_are_on_every_face(found):

@@ -40,6 +40,8 @@ class LetGo(ByValue):
     load_torque: Torque
     #: Friction about the motor from rest, N m.
     breakaway_torque: Torque
+    #: Torque that the motor holds at rest without current, N m: its detent, none in motion.
+    motor_torque: Torque
     #: The least of the friction about the motor at the speeds of the duty, N m.
     running_torque: Torque
     #: True where the load alone starts the axis.
@@ -60,15 +62,19 @@ class LetGo(ByValue):
 
     @property
     def safety(self) -> Ratio:
-        """Friction from rest over the torque of the load: below one it falls. Infinite without a load."""
-        return self.breakaway_torque / abs(self.load_torque) if self.load_torque else math.inf
+        """Friction from rest and what the motor holds, over the torque of the load: below one it falls.
+
+        Infinite without a load.
+        """
+        held = self.breakaway_torque + self.motor_torque
+        return held / abs(self.load_torque) if self.load_torque else math.inf
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Brake(ByValue):
     """What happens with the motor off, in several conditions, and the brake that is needed.
 
-    Friction of a motor, its magnets' detent and a set grease hold more; none of them is counted on.
+    A motor holds what its holding torque says, at rest; a set grease holds more, and is not counted on.
     """
 
     #: The axis with the motor off, in each condition.
@@ -102,15 +108,18 @@ class Brake(ByValue):
         return self.brake_factor * self.load_torque if self.falls else 0.0
 
 
-def brake_of(duty: Duty, *, brake_factor: Ratio = BRAKE_FACTOR, process_force: Force = 0.0) -> Brake:
+def brake_of(
+    duty: Duty, *, brake_factor: Ratio = BRAKE_FACTOR, process_force: Force = 0.0, motor_torque: Torque = 0.0
+) -> Brake:
     """The axis of a duty with its motor off.
 
     As the case has it, with the oil at 5 °C and at 60 °C, and dry: all contacts at the boundary, none of the rolling
     that oil makes. An oil without a grade has one temperature only. What belt or gears lose is not counted on.
     The least friction follows the product of speed and viscosity: another temperature moves it to another speed and
     leaves it about as large, so that the conditions differ little unless it lies beyond the speeds of the duty.
+    ``motor_torque`` is what the motor holds at rest without current, N m.
     """
-    off = _Off(duty, duty.axis.gravity_force + process_force)
+    off = _Off(duty, duty.axis.gravity_force + process_force, motor_torque)
     result = off.let_go({"as in the case": None})
     if isinstance(duty.driven, ModelledScrew):
         if duty.driven.lubricant.temperature is not None:
@@ -125,6 +134,7 @@ class _Off:
 
     duty: Duty
     load: Force
+    motor_torque: Torque
 
     @property
     def arm(self) -> Length:
@@ -214,8 +224,9 @@ class _Off:
             temperature=temperature,
             load_torque=self.load * self.arm,
             breakaway_torque=started,
+            motor_torque=self.motor_torque,
             running_torque=running,
-            falls=self.load != 0 and not started >= self.pull,
+            falls=self.load != 0 and not started + self.motor_torque >= self.pull,
             goes_on=goes_on,
             acceleration=acceleration,
             speed_after_stroke=min(math.sqrt(2 * acceleration * self.duty.states.stroke), steady)

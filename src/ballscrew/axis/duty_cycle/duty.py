@@ -24,7 +24,7 @@ from ballscrew.axis.motion.turns import largest_within, sign_changes
 from ballscrew.axis.supports.guide import GUIDES, SEALS
 from ballscrew.basis.arrays import ByValue, compact, lazy, total
 from ballscrew.basis.errors import MISSING, Fault, accepts_units, raise_if_any
-from ballscrew.basis.quantities import Energy, Power, Ratio
+from ballscrew.basis.quantities import Duration, Energy, Length, Power, Ratio
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
@@ -330,6 +330,16 @@ class Duty(ByValue):
     def power(self) -> Numbers:
         """Power of the motor, W; negative where it is driven."""
         return self.torque * self.motor_speed
+
+    def load_reversals(self, least: Ratio = _ROUNDING) -> list[tuple[Duration, Length, int]]:
+        """Where the load changes its sign in a cycle that repeats: time, s, position, m, and number of the phase.
+
+        A load below the share ``least`` of the largest has no sign: the first state with the new one counts.
+        """
+        load, states = self.axial_load, self.states
+        seen = np.flatnonzero(np.abs(load) > least * np.max(np.abs(load)))
+        turns = seen[np.sign(load[seen]) != np.sign(load[np.roll(seen, 1)])]
+        return [(float(states.time[at]), float(states.position[at]), int(states.phase[at])) for at in turns]
 
     @lazy
     def rest_friction(self) -> Numbers:

@@ -44,9 +44,20 @@ class Motor(ByValue):
     resistance: Annotated[
         Resistance | None, Info("R", "resistance that makes heat, of K_t² and i²R", "ohm", above=0, hint="1 ohm")
     ] = None
+    holding_torque: Annotated[
+        Torque | None,
+        Info(
+            "M_h",
+            "torque without current at rest: detent, friction; shorted windings have none there",
+            "N m",
+            at_least=0,
+            hint="0.1 N m",
+            usual=(0.0, 100.0),
+        ),
+    ] = None
 
     def __post_init__(self) -> None:
-        faults = faults_of("motor", self, optional=("torque_constant", "resistance"))
+        faults = faults_of("motor", self, optional=("torque_constant", "resistance", "holding_torque"))
         if not faults and self.peak_torque < self.rated_torque:
             given = f"{float(self.peak_torque):g} N m"
             faults.append(Fault("motor.peak_torque", "is below the rated torque", given, "give the peak of the sheet"))

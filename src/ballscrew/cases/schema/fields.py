@@ -74,6 +74,7 @@ EXAMPLES: Mapping[str, str | float] = {
     "largest_speed": "3000 rpm",
     "torque_constant": "0.9 N m/A",
     "resistance": "0.8 ohm",
+    "holding_torque": "0.1 N m",
     "nut_mass": "2 kg",
     "ball_conductance": "4 W/K",
     "shaft_convection": "30 W/(m^2 K)",

@@ -30,6 +30,7 @@ from ballscrew.physics.sizing.catalogue import (
 from ballscrew.physics.sizing.listed_nut import lists_preload
 from ballscrew.physics.sizing.own_nut import RATED, Estimate, completed
 from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.physics.sizing.table_balls import with_table_balls
 
 #: Quantities of a row that are listed, and that follow from it.
 FIELDS = fields_of(CatalogueRow)
@@ -103,6 +104,7 @@ def screws(path: str | Path, *, keep_going: bool = False) -> Screws:
     logs: dict[str, Path] = {}
     odd: list[str] = []
     result, notes = made(table, lambda row: _made(row, path, taken, logs, odd), keep_going)
+    result = with_table_balls(result)
     estimated = [row.name for row in result if row.ball_diameter_source]
     if estimated:
         notes.append(

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest
-from ballscrew.basis.quantities import Info, Quantity, Torque, Unit, quantities_of
+from ballscrew.basis.quantities import Info, Power, Quantity, Torque, Unit, quantities_of
 from ballscrew.evidence.moving_logs.moving_log import quantities
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import (
@@ -63,13 +63,17 @@ _NAMES: Mapping[str, tuple[str, ...]] = {
         "I", "Iq", "i_q", "motor current", "q current", "torque current", "Strom", "Motorstrom", "I_ist",
         "current feedback", "drehmomentbildender Strom",
     ),
+    "power": (
+        "motor power", "output power", "drive power", "active power", "Leistung", "Motorleistung", "Antriebsleistung",
+        "Wirkleistung",
+    ),
     "voltage": ("u", "vir", "control voltage", "command voltage", "drive voltage", "Stellspannung", "Steuerspannung"),
 }  # fmt: skip
 _HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwert", "value")
 #: The columns that the force comes from, the one that says most first, and those that the motion comes from.
-FORCES, PATHS = ("force", "torque", "current", "voltage"), ("speed", "position")
+FORCES, PATHS = ("force", "torque", "current", "power", "voltage"), ("speed", "position")
 #: Units of controllers that write none, by column.
-_OF_CONTROLLERS: Mapping[str, str] = {"time": "s", "position": "mm", "speed": "mm/s", "current": "A"}
+_OF_CONTROLLERS: Mapping[str, str] = {"time": "s", "position": "mm", "speed": "mm/s", "current": "A", "power": "kW"}
 #: A heading of one axis of several: X1_ActualPosition.
 _OF_AXIS = re.compile(r"([A-Za-z]+\d*)[_ .](.+)")
 
@@ -80,6 +84,7 @@ class _ForceLike:
 
     torque: Annotated[Torque, within(1e6, Info("M", "torque of the motor at the screw", "N m"))]
     current: Annotated[Any, Unit("A"), within(1e6, Info("I", "current of the motor that makes torque"))]
+    power: Annotated[Power, within(1e9, Info("P", "power of the motor", "kW"))]
     voltage: Annotated[Any, Unit("V"), within(1e6, Info("u", "control voltage in proportion to the force"))]
 
 

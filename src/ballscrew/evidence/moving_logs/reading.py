@@ -40,6 +40,8 @@ from ballscrew.files.torque_logs.sources import source_of
 #: Rows of text that are read at a time, and most rows of a moving log.
 CHUNK, MOST_ROWS = 200_000, 5_000_000
 _BEGIN = 512
+#: Speeds below this share of the largest make no force of a power.
+_SLOWEST = 0.05
 _Numbers = dict[str, Floats]
 
 
@@ -60,10 +62,11 @@ def read_moving(
 
     A torque becomes a force by the ``lead`` (m), a current by the ``torque_constant`` (N m/A) as well, a control
     voltage by the ``gain`` (N/V), which the channel ``gtau`` of the EMPS benchmark gives; ``usual_gain`` holds where
-    neither does. ``axis`` begins the headings of one axis of several (``X1``), in the units of controllers where they
-    have none, mm, mm/s and A; ``period`` (s) is the time between rows of a log without one. A current whose torque
-    constant is not known may stay one, ``in_amperes``. ``columns`` says which heading a column has, and its unit:
-    ``{"position": "x_ist [mm]"}``.
+    neither does. A power becomes one over the ``speed``, where that is logged and beyond a twentieth of its largest:
+    it has the heat of the motor in it. ``axis`` begins the headings of one axis of several (``X1``), in the units of
+    controllers where they have none, mm, mm/s, A and kW; ``period`` (s) is the time between rows of a log without one.
+    A current whose torque constant is not known may stay one, ``in_amperes``. ``columns`` says which heading a column
+    has, and its unit: ``{"position": "x_ist [mm]"}``.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for faults of the file, and for cells that are no numbers; with
     ``keep_going`` these count as missing.
@@ -206,7 +209,7 @@ def _of_table(
         result["time"] = period * np.arange(line.size, dtype=float)
         notes.append(f"time: a row each {period:g} s, as given")
     if axis:
-        notes.append(f"axis {axis}: units that headings do not have are mm, mm/s and A")
+        notes.append(f"axis {axis}: units that headings do not have are mm, mm/s, A and kW")
     if cells.bad_rows:
         notes.append(f"{cells.bad_rows} rows have cells that are no numbers: they count as missing")
     return result, line, notes
@@ -234,6 +237,8 @@ def _force(name: str, result: _Numbers, lead: float, torque_constant: float | No
         )
     if column == "voltage" and not math.isfinite(gain):
         raise InputError(Fault(f"{name} column {column}", "needs the gain to the force", "", '--gain "35 N/V"'))
+    if column == "power":
+        return _force_of_power(name, values, result.get("speed"))
     scale = {
         "force": 1.0,
         "torque": 2 * math.pi / lead,
@@ -241,3 +246,12 @@ def _force(name: str, result: _Numbers, lead: float, torque_constant: float | No
         "voltage": gain,
     }[column]
     return scale * values
+
+
+def _force_of_power(name: str, power: Floats, speed: Floats | None) -> Floats:
+    """The force of a power at a speed, N; NaN where the axis is too slow to tell."""
+    if speed is None:
+        remedy = "give the column of the speed, or a current or a force"
+        raise InputError(Fault(f"{name} column power", "makes a force only over a speed that is logged", "", remedy))
+    slow = np.abs(speed) < _SLOWEST * np.nanmax(np.abs(speed))
+    return np.where(slow, np.nan, power / np.where(slow, np.nan, speed))

@@ -225,6 +225,20 @@ def stock_nut(model: FrictionModel, values: Values, conditions: Conditions) -> l
     return [dataclasses.replace(point, definitions=definitions)]
 
 
+def stock_bound(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """The points of :func:`stock_nut` against the greatest drag of their range, which they must stay below."""
+    most = float(values["drag_high"])
+    return [
+        dataclasses.replace(
+            point,
+            band=Band(most, 0.0, most),
+            laws={},
+            definitions={name: ratio * point.band.middle / most for name, ratio in point.definitions.items()},
+        )
+        for point in stock_nut(model, values, conditions)
+    ]
+
+
 def _torque_without_load(model: FrictionModel, screw: BallScrew, at: Conditions) -> Torque:
     return model(screw, at.lubricant, axial_load=0.0, screw_speed=at.screw_speed).screw_torque
 

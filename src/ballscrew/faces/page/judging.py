@@ -42,6 +42,8 @@ _OF_RUN = (
 )  # fmt: skip
 _OF_SCREW = (*OPERATION, "pitch_circle_diameter", "preload")
 _OF_INSTALLATION = ("unsupported_length", "shaft_density", "buckling_root", "whirling_root")
+#: What the page asks nobody for: it has no motor.
+_NOT_ASKED = ("motor_torque",)
 _DERIVED = (
     "half_load", "other_half_load", "largest_half_load", "largest_load", "root_diameter", "dynamic_load_rating",
     "static_load_rating", "preload_drag_of_balls", "implausible_preload",
@@ -81,7 +83,7 @@ def values() -> dict[str, tuple[str, str]]:
         "young_modulus": ("inputs", "screw_material.young_modulus")
     }
     result |= {name: ("derived", name) for name in _DERIVED}
-    result |= {name: ("given", name) for name in _OF_INSTALLATION}
+    result |= {name: ("given", name) for name in (*_OF_INSTALLATION, *_NOT_ASKED)}
     result |= {name: ("given", name) for name in values_of_limits(Limits())}
     result |= {f"at_rest.{name}": ("at_rest", name) for name in ("holding_torque", "valid")}
     result |= {

@@ -4,6 +4,8 @@ The values, SI, by name, are outputs of a model (:func:`ballscrew.engine.evaluat
 operating point, ``axial_load`` and ``screw_speed``. Besides them:
 
 - ``at_rest.holding_torque`` and ``at_rest.valid``: those outputs at the same load and a speed of zero;
+- ``motor_torque`` about the screw, which the motor holds at rest without current;
+- ``unsupported_length`` and ``pitch_circle_diameter`` of the shaft;
 - ``rolling_share`` of one ball; of a nut whose balls differ none;
 - ``preload`` of a preloaded nut, ``dynamic_load_rating`` of one of its bodies, and ``implausible_preload``, a mask:
   another warning is of that number already;
@@ -20,7 +22,7 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.arrays import namespace
-from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, is_nan
+from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, at_least, is_nan
 from ballscrew.basis.quantities import Force, Info, Mask, Quantity, fields_of, quantities_of
 from ballscrew.physics.components.nut import PRELOAD
 from ballscrew.physics.components.operating_state import OperatingState
@@ -33,6 +35,8 @@ from ballscrew.physics.solvers.load_distribution import BallLoads
 LARGEST_PRELOAD_SHARE = 0.1 * (1 + 1e-9)
 #: Model over rule between which nothing is said of the maker's rule: makers state their torques to a fifth or worse.
 NEAR = (0.8, 1.25)
+#: Unsupported length over pitch circle above which a shaft is called slender: a rule of thumb.
+MOST_SLENDER = 50.0
 
 _KNOWN = quantities_of(FrictionResult)
 _HOLDING, _DRIVE, _FRICTION = (_KNOWN[name] for name in ("holding_torque", "drive_torque", "screw_torque"))
@@ -135,6 +139,17 @@ def _holding(template: str, **row: Any) -> Judgement:
     inside = Sentence(template, places={"torque": Shown("torque", _HOLDING)})
     outside = Sentence("{message} (outside the model's validity)", "invalid", {"message": (inside,)})
     return Judgement(subject="holding_torque", holds=True, unit=_HOLDING.unit, sentences=(outside, inside), **row)
+
+
+def _slenderness(of: Mapping[str, Any]) -> Mapping[str, Any]:
+    ratio = of["unsupported_length"] / of["pitch_circle_diameter"]
+    return {"said": ratio > MOST_SLENDER, "value": ratio, "limit": MOST_SLENDER}
+
+
+def _motor_holds(of: Mapping[str, Any]) -> Mapping[str, Any]:
+    held, needed = of["motor_torque"], abs(of["at_rest.holding_torque"])
+    drives = directions.load_drives(of["at_rest.holding_torque"], of["axial_load"])
+    return {"said": drives, **at_least(held, needed)}
 
 
 _IN_MOTION = ("axial_load", "screw_speed", "holding_torque", "valid")
@@ -322,6 +337,37 @@ VERDICTS: tuple[Judgement, ...] = (
         needs=_AT_REST,
         truths=("at_rest.valid",),
         severity="warning",
+    ),
+    Judgement(
+        id="verdict.motor_holds",
+        subject="motor_torque",
+        formula=_motor_holds,
+        needs=("axial_load", "at_rest.holding_torque", "motor_torque"),
+        severity_of_failure="warning",
+        unit=_HOLDING.unit,
+        sentences=(
+            Sentence(
+                "without current the motor holds {held} on the shaft at rest, where {needed} hold the load: {stays}",
+                places={
+                    "held": Shown("value", _HOLDING),
+                    "needed": Shown("limit", _HOLDING),
+                    "stays": (Sentence("it stays until something starts it", "holds"), Sentence("it does not stay")),
+                },
+            ),
+        ),
+    ),
+    Judgement(
+        id="verdict.slenderness",
+        subject="unsupported_length",
+        formula=_slenderness,
+        needs=("unsupported_length", "pitch_circle_diameter"),
+        sentences=(
+            Sentence(
+                "slender: the unsupported length is {ratio} times the pitch circle, more than {limit} (a rule of "
+                "thumb): the shaft sags, and is hard to make straight; ask its maker",
+                places={"ratio": Shown("value", digits=3), "limit": Shown("limit", digits=3)},
+            ),
+        ),
     ),
     Judgement(
         id="verdict.skid",

@@ -53,6 +53,7 @@ from ballscrew.questions.duty.parts import (
     TORQUE_RMS,
     Catalogue,
     Cycle,
+    FlankChange,
     Life,
     Mechanics,
     MotorCurve,
@@ -76,8 +77,10 @@ RULE_EFFICIENCY = 0.9
 _OF_EXTREMES = (
     "static_safety", "contact_pressure", "shaft_stress", "buckling", "critical_speed", "diameter_speed_product",
 )  # fmt: skip
-#: Parts of the energy that are rounding, as a share of what is drawn.
+#: Parts of the energy that are rounding, as a share of what is drawn, and loads, as one of the largest.
 _LEAST = 1e-12
+#: A load in a recorded motion that is noise, as a share of the largest.
+_NOISE = 0.01
 _SLUGS = {text: name for name, text in MECHANISMS.items()}
 #: Causes of the torque of a motor, for pictures; what is in none of the others is friction outside the balls.
 CAUSES = ("acceleration", "gravity", "process", "friction of the balls", "other friction")
@@ -402,7 +405,9 @@ class DutyReport(CycleNumbers):
     @part
     def brake(self) -> Brake:
         """What the axis does with its motor off."""
-        return brake_of(self.duty)
+        motor = self.case.motor
+        held = 0.0 if motor is None or motor.holding_torque is None else float(motor.holding_torque)
+        return brake_of(self.duty, motor_torque=held)
 
     @lazy
     def motor_check(self) -> MotorCheck | None:
@@ -442,6 +447,19 @@ class DutyReport(CycleNumbers):
                 )
             )
         return phases
+
+    @part
+    def flank_changes(self) -> Sequence[FlankChange]:
+        """Where the load changes its sign; the nut loses its play there, and none where it is preloaded.
+
+        What friction winds up in shaft and bearings comes on top: ``ballscrew axis``. In a recorded motion a load below
+        a hundredth of the largest is noise.
+        """
+        least = _NOISE if isinstance(self.motion, Trajectory) else _LEAST
+        lost, names = float(getattr(self.case.screw.nut, "axial_play", 0.0)), self.duty.states.phases
+        return [
+            FlankChange(time, position, names[phase], lost) for time, position, phase in self.duty.load_reversals(least)
+        ]
 
     @part
     def cycle(self) -> Cycle:

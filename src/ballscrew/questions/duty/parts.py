@@ -94,6 +94,18 @@ class Life(NamedTuple):
     revolutions_of_the_worse: Ratio
 
 
+class FlankChange(NamedTuple):
+    """A place of the cycle at which the load changes its sign, and the balls the flank."""
+
+    #: Time from the start of the cycle.
+    time: Duration
+    #: Position of the axis.
+    position: Length
+    #: The phase of the motion that it is in.
+    phase: str
+    lost_motion: Annotated[Length, Info("S_a", "travel lost in the play of the nut", "um")]
+
+
 class WorstState(NamedTuple):
     """The state whose torque comes nearest to the peak torque of the motor at its speed."""
 

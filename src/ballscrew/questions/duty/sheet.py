@@ -255,7 +255,9 @@ def _power_off(report: DutyReport) -> Iterator[Block]:
         yield Lines([Line("motor off: no load turns the screw")], detail=True)
         return
     rows = [_condition(condition) for condition in report.brake.conditions]
-    yield Table("motor_off", "Motor off, no brake", _CONDITIONS, rows, [_OFF_NOTE])
+    motor = report.brake.conditions[0].motor_torque
+    of_motor = f"The ratio counts {units.shown(motor, _TORQUE)} of the motor without current, at rest only."
+    yield Table("motor_off", "Motor off, no brake", _CONDITIONS, rows, [_OFF_NOTE, *([of_motor] if motor else [])])
 
 
 def _condition(off: LetGo) -> list[Cell]:

@@ -29,14 +29,23 @@ _INERTIA = fields_of(Axis)["inertia"]
 _CLOSES, _JUMPS = 1e-9, 1e-9
 #: The same where the motion was recorded.
 _NOISE = 0.01
+#: Places of the cycle that one sentence names.
+_PLACES = 4
 #: Points at which the curve of a motor is looked at for its highest torque.
 _CURVE_POINTS = 1000
 _PASSES = "passes all checks"
 
 
 def verdicts(report: DutyReport) -> list[Record]:
-    """Starvation; what turns; whether the axis falls, whether the motor suffices, and whether all checks hold."""
-    return [*starved(report), *inertia(report), _brake(report), *_motor(report), _checks(report)]
+    """Starvation; what turns; lost play; whether the axis falls, the motor suffices, and all checks hold."""
+    return [
+        *starved(report),
+        *inertia(report),
+        *_flank_changes(report),
+        _brake(report),
+        *_motor(report),
+        _checks(report),
+    ]
 
 
 def starved(report: DutyReport) -> list[Record]:
@@ -92,16 +101,35 @@ def _not_given(report: DutyReport) -> str:
     return ", ".join(name for name in ("screw", "motor", "coupling") if name not in report.axis.inertia_by)
 
 
+def _flank_changes(report: DutyReport) -> list[Record]:
+    """Where the load changes its flank, and what the position loses there, of a nut without preload."""
+    changes = report.flank_changes
+    if not changes or report.cycle_life.preload:
+        return []
+    places = [f"{units.shown(change.position, _LENGTH)} (“{change.phase}”)" for change in changes[:_PLACES]]
+    more = "" if len(changes) <= _PLACES else f" and {len(changes) - _PLACES} more"
+    play = changes[0].lost_motion
+    loses = f"the position loses the play of {units.shown(play, TRAVEL)}" if play else "nut.axial_play gives no play"
+    message = f"the load changes its flank {len(changes)} times in a cycle, where {loses}: at {', '.join(places)}{more}"
+    return [
+        Record(
+            text=message, id="verdict.flank_changes", subject="lost_motion", value=play, limit=None, unit=TRAVEL.unit
+        )
+    ]
+
+
 def _brake(report: DutyReport) -> Record:
     brake = report.brake
+    motor = brake.conditions[0].motor_torque
+    by_motor = units.shown(motor, _TORQUE)
     moving = [condition for condition in brake.conditions if condition.falls or condition.goes_on]
     if not brake.load_torque:
         message = "no brake is needed to hold it: no load turns the screw at rest"
     elif not moving:
         least = min(condition.safety for condition in brake.conditions)
         message = (
-            f"stays with the motor off: friction from rest is at least {units.number(least)} times the torque of "
-            "the load"
+            f"stays with the motor off: friction from rest{f' and {by_motor} of the motor' * bool(motor)} is at least "
+            f"{units.number(least)} times the torque of the load"
         )
         if least < brake.brake_factor:
             message = (
@@ -111,7 +139,8 @@ def _brake(report: DutyReport) -> Record:
     else:
         goes = _way(report)
         everywhere = len(moving) == len(brake.conditions)
-        falls = goes if brake.starts else f"stays, but {goes} once it is started,"
+        by_help = f" by the {by_motor} of the motor without current" * bool(motor)
+        falls = goes if brake.starts else f"stays{by_help}, but {goes} once it is started,"
         conditions = "in all conditions" if everywhere else ", ".join(c.condition for c in moving)
         speed = units.shown(max(each.speed_after_stroke for each in moving), _SPEED)
         factor = units.number(brake.brake_factor, 6)
@@ -122,6 +151,8 @@ def _brake(report: DutyReport) -> Record:
             f"{units.shown(brake.brake_torque, _TORQUE)}, {factor} times the {load} of the load without friction "
             f"({holding} hold it with its help)"
         )
+        if motor and brake.starts:
+            message = f"{message}; the {by_motor} of the motor without current do not hold it"
     if brake.load_torque and report.duty.starved:
         message = f"{message}; with the smaller friction, that of the track starved of oil"
     return Record(

@@ -111,6 +111,12 @@ class Run:
             "rolling_share": self.rolling_share,
             "flooded_torque": friction.flooded_torque if friction.may_starve else friction.screw_torque,
         }
+        if self.case.installation is not None:
+            values["unsupported_length"] = self.case.installation.unsupported_length
+            values["pitch_circle_diameter"] = self.case.screw.pitch_circle_diameter
+        if self.case.motor is not None and self.case.motor.holding_torque is not None:
+            gears = 1.0 if self.case.axis is None else self.case.axis.transmission_ratio
+            values["motor_torque"] = self.case.motor.holding_torque * gears
         if nut is not None:
             values["preload"] = nut.preload
             values |= {name: getattr(nut.loads, name) for name in ("remaining_preload", "lift_off_load")}

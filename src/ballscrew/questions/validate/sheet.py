@@ -128,7 +128,7 @@ def conditions(data: ValidationSet, request: Request) -> str:
     if not data.conditioned:
         return ""
     load = "" if data.loaded else ", no load"
-    if data.bound:
+    if data.bound and data.alternatives:
         return f"speed and oil by row{load}, no wipers"
     at = request.conditions_of(data)
     speed = units.shown(at.screw_speed, fields_of(OperatingState)["screw_speed"])

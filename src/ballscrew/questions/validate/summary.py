@@ -60,7 +60,7 @@ def _entries(
     """Each set with the model, and with every calibration of it, and notes on its rows."""
     fits = [each for each in calibrations().values() if each.model == request.model.name]
     for data in request.sets:
-        if not data.of_screws or not data.calibratable or data.loaded or data.alternatives:
+        if not data.of_screws or not data.calibratable or data.loaded or data.alternatives or data.bound:
             continue
         models = [(request.model, None), *((calibrated(request.model, fit), fit.name) for fit in fits)]
         missing = [(model, name) for model, name in models if (data.name, name) not in known]

@@ -36,7 +36,7 @@ const OF_AXIS = [
   "transmission_efficiency",
   "brake_holds",
 ];
-const OF_MOTOR = ["rated_torque", "peak_torque", "largest_speed", "torque_constant", "resistance"];
+const OF_MOTOR = ["rated_torque", "peak_torque", "largest_speed", "torque_constant", "resistance", "holding_torque"];
 
 /**
  * A change of the inputs: sections of the case, the field that was edited, and whether the inputs are made anew with the
