@@ -23,9 +23,9 @@ ADDRESSES = "an address, a fragment or a file name"
 #: What is left, by file: what stands in the line, and what it is applied to.
 ALLOWED = {
     "alone.js": {'address.split("/")': ADDRESSES, 'structure.split("/")': NAMES, "record.id.replace(": NAMES,
-                 'name.split("_")': NAMES, "const [, numbers, written] = ": "an axis, as the page writes it",
+                 'name.split("_")': NAMES, "const AXIS = ": "an axis, as the page writes it", "AXIS.exec(": "an axis, as the page writes it",
                  "numbers.split(": "an axis, as the page writes it", 'path.split(".")': PATHS},
-    "case_alone.js": {"const SHARE = ": TYPED, "SHARE.test(": TYPED, "SHARE.exec(": TYPED, "path.replace(": PATHS,
+    "case_alone.js": {"const SHARE = ": TYPED, "SHARE.test(": TYPED, ".replace(SHARE": TYPED, "path.replace(": PATHS,
                       'path.split(".")': PATHS},
     "judgements.js": {"shownIn.replace(": "the sign of a unit", 'structure.split("/")': NAMES,
                       "template.replace(": "places in a sentence of the tables", "toExponential(": NUMBERS,

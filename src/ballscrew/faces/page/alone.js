@@ -33,6 +33,9 @@ const QUADRANTS = [
 /** Results that only a nut has. */
 const OF_ROWS = ["contact_load", "rolling_share"];
 
+/** Numbers between commas or colons, and a unit. */
+const AXIS = /^((?:[-+]?[\d.]+(?:e[-+]?\d+)?(?:\s*[,:]\s*)?)+)(?:\s+(\S.*))?$/i;
+
 /** A number as an answer has it. @param {number | undefined} value */
 function plain(value) {
   return value !== undefined && Number.isFinite(value) ? value : null;
@@ -154,12 +157,18 @@ class Alone {
       warnings: said(warnings),
       checks: [],
       provenance: { version: contents.version, model, references: contents.models[model].references },
-      words: { title: titleOf(subject), verdicts: [], assumed: [], rigidity: [], rules: [] },
+      words: {
+        title: titleOf(subject),
+        verdicts: [],
+        assumed: ["whether inputs are plausible: judged by the program alone"],
+        rigidity: [],
+        rules: ruleOf(contents.starts[start].judged.rule, judged.derived),
+      },
     };
     const lines = said(checks).map((record, place) => ({
       ...record,
       name: record.id.replace("check.", ""),
-      missing: record.holds === null ? (contents.judging.tables.checks[place].give ?? "") : "",
+      missing: record.holds === null ? missingIn(checks[place].message) : "",
     }));
     const check = {
       checks: lines,
@@ -193,26 +202,29 @@ class Alone {
     results.self_locking = outputs.self_locking === 1;
     if (subject.kind === "row") results.rigidity = undefined;
     else for (const name of OF_ROWS) delete results[name];
-    const [load, speed] = [Math.abs(subject.inputs[LOAD]), Math.abs(subject.inputs[SPEED])];
-    const signs = QUADRANTS.map(([, ofLoad, ofSpeed]) => [ofLoad, ofSpeed]);
-    const columns = {
-      [LOAD]: [...signs.map(([sign]) => sign * load), 0],
-      [SPEED]: [...signs.map(([, sign]) => sign * speed), subject.inputs[SPEED]],
-    };
-    const around = this.#at(subject, columns, signs.length + 1);
-    if (subject.kind !== "row") results.preload_drag = plain(around.screw_torque[signs.length]);
-    results.quadrants = Object.fromEntries(
-      QUADRANTS.map(([name, load_sign, speed_sign], place) => [
-        name,
-        {
-          load_sign,
-          speed_sign,
-          shaft_torque: plain(around.drive_torque[place]),
-          efficiency: plain(around[load_sign === speed_sign ? "efficiency" : "back_driving_efficiency"][place]),
-        },
-      ]),
-    );
+    if (subject.kind !== "row") results.preload_drag = plain(this.#at(subject, { [LOAD]: 0 }, 1).screw_torque[0]);
+    results.quadrants = this.#quadrants(subject);
     return results;
+  }
+
+  /** Load and speed, each with both signs: at rest the friction is that at which it begins to turn. @param {CaseAlone} subject */
+  #quadrants(subject) {
+    const [load, speed] = [Math.abs(subject.inputs[LOAD]), Math.abs(subject.inputs[SPEED])];
+    const columns = {
+      [LOAD]: QUADRANTS.map(([, sign]) => sign * load),
+      [SPEED]: QUADRANTS.map(([, , sign]) => sign * speed),
+    };
+    const numbers = this.#at(subject, columns, QUADRANTS.length);
+    return Object.fromEntries(
+      QUADRANTS.map(([name, load_sign, speed_sign], place) => {
+        const [ideal, friction] = [numbers.ideal_torque[place], numbers.screw_torque[place]];
+        const torque = speed ? numbers.drive_torque[place] : ideal + speed_sign * friction;
+        const moving = numbers[load_sign === speed_sign ? "efficiency" : "back_driving_efficiency"][place];
+        const atRest = load_sign === speed_sign ? ideal / torque : torque / ideal;
+        const efficiency = plain(speed ? moving : atRest);
+        return [name, { load_sign, speed_sign, shaft_torque: plain(torque), efficiency }];
+      }),
+    );
   }
 
   /** The loads of a nut: of each ball where its bodies are elastic. @param {CaseAlone} subject @param {Tables} outputs */
@@ -351,7 +363,7 @@ class Alone {
     const laws = {
       ...record,
       id: "band.laws",
-      text: "Laws are not varied here: the low end is usually 5 to 25 % higher than that of inputs and laws in the program.",
+      text: "Laws are not varied here: with them, in the program, the low end is usually 5 to 25 % lower, and the high end up to 10 % lower.",
     };
     const question = this.#asked(subject, "point", []);
     const makers = makersIn(bands, question);
@@ -405,6 +417,16 @@ class Alone {
   }
 }
 
+/** The input that a sentence asks for; none where it asks for nothing. @param {any} message @returns {string} */
+function missingIn(message) {
+  for (const [name, value] of Object.entries(message.values)) {
+    if (name === "input") return typeof value === "string" ? value : value.template;
+    const inner = value?.values ? missingIn(value) : "";
+    if (inner) return inner;
+  }
+  return "";
+}
+
 /** True where the speed is that of the nut. @param {Tables} tables */
 function isOfNut({ operation }) {
   return units.parse(operation?.[SPEED], "m/s") !== null;
@@ -425,14 +447,14 @@ function nested(flat, [size, ...inner]) {
  * @returns {number[]}
  */
 function valuesIn(text, { unit }) {
-  const [, numbers, written] = /^([-+\d.e:,\s]+?)\s*([a-zA-Z/%°].*)?$/.exec(text.trim()) ?? [];
-  if (!numbers) throw new Problem({ title: `${text} is no axis.` });
+  const [, numbers = "", written = ""] = AXIS.exec(text.trim()) ?? [];
   const [low, high, count] = numbers.split(":").map(Number);
   const values =
     count === undefined
       ? numbers.split(",").map(Number)
       : Array.from({ length: count }, (_, place) => low + ((high - low) * place) / (count - 1));
-  return values.map((value) => (written && unit !== "1" ? units.toSI(value, written.trim(), unit) : value));
+  if (!numbers || !values.every(Number.isFinite)) throw new Problem({ title: `${text} is no axis.` });
+  return values.map((value) => (written && unit !== "1" ? units.toSI(value, written, unit) : value));
 }
 
 /** The inputs in their tables, those of the laws of the model among them. @param {any} contents @param {CaseAlone} subject */
@@ -457,6 +479,21 @@ function put(tables, path, value) {
     place = place[name];
   }
   place[last] = value;
+}
+
+/**
+ * The drag torque beside that of the rule of the maker of a row, in words; none where there is none.
+ *
+ * @param {any} rule
+ * @param {Record<string, any>} derived
+ */
+function ruleOf(rule, derived) {
+  const [drag, ruled] = [derived.preload_drag_of_balls, rule && derived[rule.torque]];
+  if (!(drag > 0 && ruled > 0)) return [];
+  const shown = (/** @type {number} */ torque) => units.formatted("screw_torque", torque);
+  return [
+    `Drag torque without seals ${shown(drag)}; by the rule of its maker, ${rule.words.rule}, ${shown(ruled)} (model / rule ${units.digits(drag / ruled, 3)}).`,
+  ];
 }
 
 /** The operating point and the model of a case in words. @param {CaseAlone} subject */

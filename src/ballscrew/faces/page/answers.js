@@ -1,4 +1,4 @@
-// Answers of the server: one request for all designs, whose lines are drawn as they come. Numbers come first.
+// Answers: one request for all designs, whose lines are drawn as they come. Numbers come first.
 
 import * as bath from "./bath.js";
 import { isVisible, move, showFailure, showWords } from "./chart_place.js";

@@ -1,4 +1,4 @@
-"""The band of the static page: which inputs are uncertain and by how much, and the random numbers, as tables.
+"""The band of the page: which inputs are uncertain and by how much, and the random numbers, as tables.
 
 All is that of :func:`ballscrew.engine.uncertainty.bands.band` with the default distributions of a case and the
 calibrations of makers, without other laws: the same Sobol' points, so the same samples. Scripts take the points from

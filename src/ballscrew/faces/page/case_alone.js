@@ -26,9 +26,13 @@ const TEMPERATURE = "temperature";
 const SEALS = "losses.seals.seal_torque";
 /** Fields that choose the structure and the start. */
 const CHOICES = ["screw.catalogue", "nut.type", "nut.spacer_balls", "model.name", "lubricant.grade", "bodies"];
-/** How a shaft is held where nobody says. */
-const USUAL_ENDS = "fixed-supported";
-const SHARE = /^\s*([\d.]+)\s*%\s*$/;
+const SHARE = /\s*%\s*$/;
+/** Fields of a screw that its number of balls follows from. */
+const OF_BALLS = ["pitch_circle_diameter", "lead", "ball_diameter", "starts"].map((name) => `screw.${name}`);
+/** What every case gives. */
+const ALWAYS = ["operation.axial_load", "operation.screw_speed"];
+/** What is read after all others, from which it follows. */
+const LAST = ["nut.preload", "operation.screw_speed"];
 
 /**
  * A fault of a field, as the server says it.
@@ -82,9 +86,12 @@ export async function read(contents, engine, tables) {
   const model = tables.model?.name ?? Object.keys(models)[0];
   const structure = `${model}/${kind}`;
   if (!starts[start]) throw refused([unknown("screw.catalogue", start)]);
-  if (!structures[structure]) throw refused([unknown(models[model] ? "nut.type" : "model.name", kind)]);
+  if (!models[model]) throw refused([unknown("model.name", model)]);
+  if (!structures[structure]) throw refused([unknown("nut.type", kind)]);
   await engine.load(structure);
-  const texts = textsOf(Object.fromEntries(Object.entries(tables).filter(([name]) => !OF_OTHERS.includes(name))));
+  const texts = inOrder(
+    textsOf(Object.fromEntries(Object.entries(tables).filter(([name]) => !OF_OTHERS.includes(name)))),
+  );
   const own = starts[start];
   /** @type {Record<string, number>} */
   const values = { ...models[model].values, ...own.values, ...own.nuts[kind].values, [SEALS]: 0 };
@@ -110,6 +117,11 @@ export async function read(contents, engine, tables) {
     }
     if (!texts.has("lubricant.viscosity")) faults.push(fault("lubricant.viscosity", "missing", "", "give a viscosity"));
   }
+  if (grade && texts.has("lubricant.viscosity")) {
+    faults.push(fault("lubricant.viscosity", "stands beside a grade", "", "give one of them"));
+  }
+  const ofNut = [...texts.keys()].find((path) => path.startsWith("nut.") || path.startsWith("bodies"));
+  if (kind === "row" && ofNut) faults.push(fault("nut.type", "missing", "", "choose the kind of nut"));
   if (contents.kinds[kind].is_preloaded && !texts.has("nut.preload")) {
     faults.push(fault("nut.preload", "missing", "", "give the preload"));
   }
@@ -126,31 +138,51 @@ export async function read(contents, engine, tables) {
     if (CHOICES.includes(path) || isLaw(contents, structure, path, written)) continue;
     if (path === "installation.ends" && judging.ends[written]) given.ends = written;
     else if (path === "nut.preload" && SHARE.test(String(written))) {
+      const share = Number(units.withPoint(units.inASCII(String(written).replace(SHARE, ""))));
       const rating = Number(listed.dynamic_load_rating);
-      if (!rating) faults.push(fault(path, "is a share of a dynamic load rating that is not known", written, ""));
-      else values.preload = (Number(SHARE.exec(String(written))?.[1]) / 100) * rating;
+      if (!(share >= 0 && share <= 100)) faults.push(notRead(path, written));
+      else if (!rating) faults.push(fault(path, "is a share of a dynamic load rating that is not known", written, ""));
+      else values.preload = (share / 100) * rating;
     } else if (judged || contents.listed[path]) {
-      const value = valueAt(text, judged ?? contents.listed[path]);
+      const value = readAt(text, judged ?? contents.listed[path]);
       if (value === undefined) faults.push(notRead(path, written));
       else if (judged) given[path.replace(/^installation\./, "")] = value;
       else listed[path.replace(/^screw\./, "")] = value;
     } else if (known && (name === TEMPERATURE ? grade : Object.hasOwn(values, name))) {
-      const value = path === "operation.screw_speed" ? speedAt(text, known, values.lead) : valueAt(text, known);
-      if (value === undefined) faults.push(notRead(path, written));
-      else if (name !== TEMPERATURE) values[name] = value;
+      const value = path === "operation.screw_speed" ? speedAt(text, known, values.lead) : readAt(text, known);
+      if (name === TEMPERATURE) places[path] = { input: name, ...boundsOf(known) };
+      else if (value === undefined) faults.push(notRead(path, written));
+      else values[name] = value;
       places[path] = { input: name, ...boundsOf(known) };
     } else faults.push(unknown(path, written));
   }
   const isOfRow = start !== PLAIN && !texts.has("screw.loaded_balls");
-  const changed = Object.keys(places).find((path) => isOfRow && path.startsWith("screw."));
+  const changed = Object.keys(places).find((path) => isOfRow && OF_BALLS.includes(path));
   if (changed) faults.push(fault(changed, "changes the balls of its row", "", "give the loaded balls, too"));
-  if (given.unsupported_length !== undefined) given.ends ??= USUAL_ENDS;
-  const needed = start === PLAIN ? contents.needed : [];
+  const isHeld = given.unsupported_length !== undefined || given.ends !== undefined;
+  const needed = [
+    ...ALWAYS,
+    ...(start === PLAIN ? contents.needed : []),
+    ...(isHeld ? ["installation.unsupported_length", "installation.ends"] : []),
+  ];
   for (const path of needed) if (!texts.has(path)) faults.push(fault(path, "missing", "", "give a value"));
   if (faults.length) throw refused(faults);
   const names = [...structures[structure].inputs, ...Object.keys(own.nuts[kind].values)];
   const inputs = Object.fromEntries(names.map((name) => [name, values[name]]));
   return { tables, start, structure, kind, inputs, values, given, listed, grade, temperature, kept, places };
+}
+
+/** Texts in an order in which each can be read. @param {Map<string, string>} texts */
+function inOrder(texts) {
+  const rank = (/** @type {string} */ path) => (path.startsWith("screw.") ? 0 : LAST.includes(path) ? 2 : 1);
+  return new Map([...texts].sort(([one], [other]) => rank(one) - rank(other)));
+}
+
+/** The value of a field, which needs its unit where it has one. @param {string} text as JSON @param {any} place */
+function readAt(text, place) {
+  const written = JSON.parse(text);
+  const isPlain = typeof written === "number" && place.unit !== "1";
+  return isPlain || typeof written === "object" ? undefined : valueAt(text, place);
 }
 
 /** The input that a field is of, by its name. @param {any} contents @param {string} path */
@@ -179,7 +211,7 @@ function isLaw({ templates }, structure, path, written) {
 /** The speed of the screw, which may be given by that of its nut. @param {string} text @param {any} place @param {number} lead */
 function speedAt(text, place, lead) {
   const ofNut = units.parse(JSON.parse(text), "m/s");
-  if (!ofNut) return valueAt(text, place);
+  if (!ofNut) return readAt(text, place);
   return (units.toSI(ofNut.number, ofNut.unit, "m/s") / lead) * 2 * Math.PI;
 }
 

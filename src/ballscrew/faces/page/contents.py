@@ -82,7 +82,7 @@ def contents(
 def _row(row: Mapping[str, Any]) -> dict[str, Any]:
     """A row of the catalogue; one that the page does not start from is computed by the program alone."""
     name = row["name"]
-    alone = f"the program computes it: ballscrew check {name}"
+    alone = f"computed by the program: ballscrew check {name}"
     return {**row, "refusal": row["refusal"] or ("" if name in kinds.start_tables() else alone)}
 
 
@@ -110,7 +110,7 @@ def _values(subjects: Mapping[tuple[str, str], Configuration], model: str) -> di
 
 def _fields(subjects: Mapping[tuple[str, str], Configuration]) -> dict[str, Any]:
     """The inputs of all modules by name: where they stand in a case file, their units and bounds."""
-    known = {name: subject.inputs[name] for subject in subjects.values() for name in inputs_of_structure(subject)} | {
+    known = {name: subject.inputs[name] for subject in subjects.values() for name in inputs_of_module(subject)} | {
         TEMPERATURE.name: ("lubricant", TEMPERATURE),
         NUT_DIAMETER: ("bodies", fields_of(Bodies)["nut_outer_diameter"]),
     }

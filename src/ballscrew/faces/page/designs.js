@@ -53,7 +53,10 @@ function designIn({ designs, show }) {
  * @param {string} name
  */
 export function isKnown(name) {
-  return Object.hasOwn(vocabulary.starts, name) || vocabulary.rows.some((row) => row.name === name);
+  return (
+    Object.hasOwn(vocabulary.starts, name) ||
+    vocabulary.rows.some((row) => row.name === name && !(alone.answers && row.refusal))
+  );
 }
 
 /** @param {string} name */
@@ -117,6 +120,10 @@ export function keepLead(lead) {
 export async function caseOf(design) {
   const start = await startOf(design.start);
   const found = tablesOf(design);
+  if (isWrittenOut(design) && found.screw?.catalogue) {
+    const { catalogue, ...changed } = found.screw;
+    return { ...found, screw: { ...(await startOf(catalogue)).screw, ...changed } };
+  }
   return isRow(design.start) && !isWrittenOut(design) ? states.named(design.start, start, found) : found;
 }
 

@@ -23,9 +23,14 @@ const KINDS = {
 export function build() {
   /** @type {Map<string, Making>} */
   const making = new Map();
-  const buttons = Object.entries(KINDS).map(([kind, [words]]) => {
+  const buttons = Object.entries(KINDS).map(([kind, [words, address]]) => {
     const onclick = () => saveAs(kind, making);
-    return element("button", { type: "button", title: words, "aria-label": `${kind}: ${words}`, onclick }, kind);
+    const marks = {
+      title: words,
+      "aria-label": `${kind}: ${words}`,
+      class: address?.startsWith("report") && "of-server",
+    };
+    return element("button", { type: "button", ...marks, onclick }, kind);
   });
   byId("downloads").replaceChildren(...buttons);
 }

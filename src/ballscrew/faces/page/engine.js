@@ -249,13 +249,15 @@ function liftOffLoad(kernel, solver, parts, values) {
   let [pressedBefore, pressedLow] = [pressed(before), pressed(low)];
   for (let step = 0; step < LIFT_OFF.steps; step++) {
     const along = low + (pressedLow * (low - before)) / (pressedBefore - pressedLow);
-    const size = along > low && along < high ? along : (low + high) / 2;
+    // every other step halves the bracket, which the line may miss for long
+    const isOnLine = along > low && along < high && (step % 2 === 0 || high === Number.POSITIVE_INFINITY);
+    const size = isOnLine ? along : (low + Math.min(high, 2 * low)) / 2;
     if (Math.min(size, high) - low <= LIFT_OFF.tolerance * size) return size;
     const left = pressed(size);
     if (left > 0) [before, pressedBefore, low, pressedLow] = [low, pressedLow, size, left];
     else high = size;
   }
-  return Number.NaN;
+  return (low + high) / 2;
 }
 
 /**

@@ -1,4 +1,4 @@
-"""Verdicts, checks and the picture of the ball on the static page: their module, and the tables that say them.
+"""Verdicts, checks and the picture of the ball without a server: their module, and the tables that say them.
 
 The page computes the operating point and a few points beside it, takes from there and from the visitor what is judged,
 and fills the sentences of the tables. Which value is from where is data, too.

@@ -1,4 +1,4 @@
-"""What the static page can show: kinds of nuts and models, and the screws to start from, as cases.
+"""What the page can show: kinds of nuts and models, and the screws to start from, as cases.
 
 A structure is a model and a kind of nut; all numbers are inputs of its module (:mod:`ballscrew.faces.page.modules`), so
 that every screw with such a nut is computed by the same one.

@@ -191,6 +191,7 @@ function addListeners() {
 
 /** Say who computes, and lead to the API of a server. */
 function showWhoAnswers() {
+  document.documentElement.classList.toggle("alone", Boolean(alone.answers));
   if (alone.answers) byId("computed").textContent = "Computed in your browser; nothing leaves it.";
   else Object.assign(byId("api"), { href: "/api", hidden: false });
 }

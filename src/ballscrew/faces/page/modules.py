@@ -1,4 +1,4 @@
-"""The modules of the static page: those of its models and kinds of nut."""
+"""The modules of the page without a server: those of its models and kinds of nut."""
 
 from __future__ import annotations
 

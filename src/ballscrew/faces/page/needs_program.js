@@ -18,9 +18,11 @@ const COMMANDS = {
   service: "ballscrew service log.csv --case case.toml",
   condition: "ballscrew condition tests.csv --case case.toml",
   optimise: "ballscrew optimise need.toml",
-  "hand-over": "ballscrew export case.toml",
-  "own-nut": "ballscrew catalogue own",
+  "hand-over": "ballscrew hand-over case.toml",
+  "own-nut": 'ballscrew catalogue own "d0=40 mm, lead=10 mm, turns=2x2.5" --case',
 };
+/** Cards whose command takes no case. */
+const WITHOUT_CASE = ["choose", "optimise", "own-nut"];
 /** Where the program serves the same page. */
 const SERVED = "http://127.0.0.1:8017/";
 
@@ -47,21 +49,22 @@ export function setUp(holder) {
       said.textContent = "not copied: the browser does not allow it";
     }
   };
+  const line = element(
+    "p",
+    { class: "row" },
+    element("button", { type: "button", onclick: saving }, "Save the case"),
+    " ",
+    element("button", { type: "button", onclick: copying }, "Copy the case"),
+    " ",
+    link,
+    ", which ",
+    element("code", {}, "ballscrew serve"),
+    " serves ",
+    said,
+  );
   holder.replaceChildren(
     element("p", {}, "This page has no server; the program answers this: ", element("code", {}, COMMANDS[holder.id])),
-    element(
-      "p",
-      { class: "row" },
-      element("button", { type: "button", onclick: saving }, "Save the case"),
-      " ",
-      element("button", { type: "button", onclick: copying }, "Copy the case"),
-      " ",
-      link,
-      " (",
-      element("code", {}, "ballscrew serve"),
-      ") ",
-      said,
-    ),
+    ...(WITHOUT_CASE.includes(holder.id) ? [] : [line]),
   );
   return {
     follow() {

@@ -1,4 +1,4 @@
-// Charts of the page of the server: their files have the name of the design, their operating point is that of its fields.
+// Charts of the page: their files have the name of the design, their operating point is that of its fields.
 
 import * as places from "./chart_place.js";
 import * as point from "./operating_point.js";

@@ -209,10 +209,14 @@ function showResults(answer, known, isBanded) {
   const unloaded = answer.verdicts.some(({ id }) => id === "verdict.no_load");
   const isShown = (/** @type {string} */ name) =>
     numbers[name] !== undefined && !(unloaded && name === "holding_torque");
-  const rows = FIRST.filter(isShown).map((name) => {
+  const rows = FIRST.filter(isShown).map((name, place) => {
     const { text: shown, interval } = rounded(name, numbers[name], known);
+    const isOfInputs = place === 0 && interval && known && !Object.keys(known.band.laws).length;
     // the place of an interval that is still computed is kept
-    const ends = interval || isBanded ? element("span", { class: "interval" }, interval ?? "\u00a0") : null;
+    const ends =
+      interval || isBanded
+        ? element("span", { class: "interval" }, interval ?? "\u00a0", isOfInputs ? ", inputs alone" : "")
+        : null;
     return element(
       "div",
       {},

@@ -21,7 +21,7 @@ export function setUp() {
     type: "search",
     id: "search",
     autocomplete: "off",
-    placeholder: "Search: 40x10, rexroth double, BNF4010-5",
+    placeholder: "Search: 40x10, rexroth double",
     "aria-label": "Search all screws: a size, a part of a name, an order code",
     oninput: show,
   });
@@ -49,9 +49,9 @@ export function setUp() {
     const row = rows.get(name);
     if (!row) return null;
     const choose = row.refusal
-      ? element("span", {}, `${rowLabel(row)}: no torque is computed of it; ${row.refusal}`)
+      ? element("span", {}, `${rowLabel(row)}: ${row.refusal}`)
       : element("button", { type: "button", "data-row": name, onclick: () => take(name) }, rowLabel(row));
-    return element("li", {}, choose, element("span", { class: "small" }, row.source));
+    return element("li", {}, choose, " ", element("span", { class: "small" }, row.source));
   }
 
   function show() {

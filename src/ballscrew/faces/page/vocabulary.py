@@ -180,7 +180,7 @@ def vocabulary() -> dict[str, Any]:
                 "nut": row.nut or "single",
                 "group": f"{row.make} {row.family}" if row.family else row.source,
                 "sizes": sizes_of(row),
-                "refusal": row.refusal,
+                "refusal": row.refusal and f"no torque is computed of it; {row.refusal}",
             }
             for row in catalogue().values()
         ],

@@ -25,7 +25,9 @@ export function setUp(holder) {
   const say = (words) => {
     said.textContent = words;
   };
-  const projects = KINDS.map((kind) => button(`Project as ${kind.toUpperCase()}`, () => saveProject(kind, say)));
+  const projects = KINDS.map((kind) =>
+    button(`Project as ${kind.toUpperCase()}`, () => saveProject(kind, say), { class: "of-server" }),
+  );
   holder.replaceChildren(
     element(
       "p",
