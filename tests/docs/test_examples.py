@@ -43,8 +43,8 @@ def test_the_examples_of_a_page_run(page, tmp_path, monkeypatch, capsys):
 
 def test_the_recipe_for_a_simulator_has_the_friction_of_the_nut(capsys):
     """Without load it is that of the preload, by the model itself; the page states it."""
-    (page,) = (page for page in PAGES if name(page) == "docs/howto/simulator_table.md")
-    block, _ = examples(page)
+    (page,) = (page for page in PAGES if name(page) == "docs/howto/sweep.md")
+    block = examples(page)[0]
     names = {"__name__": "example"}
     exec(compile(block.text, str(page), "exec"), names)
     stated = block.text.split("  # ")[1].splitlines()[0]
