@@ -1,6 +1,6 @@
 """The bands of the static page against those of the program: their ends, how near they are, what they take.
 
-``python benchmarks/static_bands.py`` prints the tables of docs/howto/static_page.md, of the torque at the operating
+``python benchmarks/static_bands.py`` prints the tables of docs/howto/browser.md, of the torque at the operating
 point. ``page`` is what the scripts of the page find in node; ``program`` is the band of ``ballscrew run --band``, which
 draws other laws, too. ``difference`` is the worst relative one of the ends of all outputs and of the fan from the
 program with the samples and the calibrations of the page. Times are those of node: ends alone, and with the fan.

@@ -63,10 +63,6 @@ def numbers() -> dict[str, str]:
     """The numbers in the text of the pages, by their names there."""
     found: dict[str, str] = {}
     steps = {name: effects(case) for name, case in CASES.items()}
-    for i, key in enumerate(
-        ("rolling", "inlet", "sharing", "boundary", "runin", "spin", "ellipse", "helix", "nobraking", "balls"), start=1
-    ):
-        found[key] = ", ".join(_step(steps[name], i, case.title) for name, case in CASES.items())
     reference, corrected = FrictionModel.reference(), FrictionModel.corrected()
     for name, case in CASES.items():
         r, c = case.result(reference), case.result(corrected)
@@ -110,11 +106,6 @@ def light_load_words(case) -> str:
         f" below {film:.0f} N on the nut ({film * a_ball:.1f} N a ball), and the ball skids below {skid:.0f} N"
         f" ({skid * a_ball:.1f} N a ball). Both loads grow with speed: at {FAST} rpm it skids below {fast:.0f} N."
     )
-
-
-def _step(steps, i: int, title: str) -> str:
-    percent = f"{steps[i].added / steps[i - 1].torque:+.1%}".replace("%", " %").replace("-", "−")
-    return f"{_signed(steps[i].added)} N m ({percent}) at {title}"
 
 
 def _signed(value: float) -> str:

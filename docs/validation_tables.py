@@ -384,7 +384,6 @@ def numbers() -> dict[str, str]:
     for key, name in (("double", "rexroth-double-nut"), ("single", "rexroth-single-nut")):
         for who, fitted in (("raw", False), ("calibrated", True)):
             entry = by_key[name, fitted]
-            values[f"{key}_{who}_mean"] = f"{entry.mean_ratio:.2f}"
             values[f"{key}_{who}_share"] = _percent(entry.share_in_band)
         outside = [f"{point.name} ({point.ratio:.2f})" for point in by_key[name, True].points if point.in_band is False]
         values[f"{key}_calibrated_outside"] = ", ".join(outside) or "none"
@@ -397,9 +396,6 @@ def numbers() -> dict[str, str]:
     balan = by_key["balan-2015", False]
     slow, fast = min(p.ratio for p in balan.points), max(p.ratio for p in balan.points)
     values |= {"balan_mean": _mean(balan), "balan_slow": f"{slow:.2f}", "balan_fast": f"{fast:.2f}"}
-    values["thk_rexroth"] = f"{by_key['thk-jis', False].mean_laws['rexroth']:.2f}"
-    double = by_key["rexroth-double-nut", False].mean_laws
-    values |= {"double_jis": f"{double['jis']:.2f}", "double_efficiency": f"{double['efficiency']:.2f}"}
     ratings = by_key["hiwin-ratings", False].points
     off = [p for p in ratings if abs(p.ratio - 1) > C_A or abs(p.definitions["static"] - 1) > C_0A]
     rigid = by_key["rexroth-rigidity", False]
@@ -423,10 +419,6 @@ def numbers() -> dict[str, str]:
         values[f"chart_{key}"] = f"{by_key['chart-friction', fitted].mean_ratio:.2f}"
     (low, high) = {(p.band.low, p.band.high) for p in by_key["xjtu", False].points}.pop()
     values |= {"xjtu_low": f"{low:.2f}", "xjtu_high": f"{high:.2f}"}
-    for key, name in (("double", "double"), ("sealed", "double, two wipers")):
-        values[f"xjtu_{key}"] = "{:.2f} to {:.2f}".format(*by_key["xjtu", False].groups[name].range_ratio)
-    oversize = by_key["xjtu", True].groups["single"].points
-    values["xjtu_oversize"] = f"{sum(p.in_band for p in oversize)} of {len(oversize)} calibrated ones lie between them"
     values |= _numbers_of_stock(by_key["hiwin-stock", False], by_key["hiwin-stock", True])
     bearings = by_key["support-bearings", False].groups
     for maker, group in bearings.items():
@@ -447,7 +439,6 @@ def _numbers_of_stock(raw, calibrated_entry) -> dict[str, str]:
     values: dict[str, str] = {}
     for kind in ("double", "offset"):
         group = raw.groups[kind]
-        values[f"stock_{kind}"] = _spread(group)
         values[f"stock_{kind}_own"] = _percent(group.share_in_uncertainty_band)
         values[f"stock_{kind}_jis"] = f"{group.mean_laws['jis']:.2f}"
         values[f"stock_{kind}_calibrated"] = _spread(calibrated_entry.groups[kind])

@@ -27,6 +27,16 @@ def test_there_are_examples():
     assert {"README.md", "docs/start.md"} <= {name(page) for page in PAGES}
 
 
+def test_every_file_of_the_examples_stands_in_their_table():
+    """By its name, or by that of its folder."""
+    _, _, table = (ROOT / "docs" / "start.md").read_text(encoding="utf-8").partition("## Examples")
+    files = [path.relative_to(ROOT / "examples") for path in (ROOT / "examples").rglob("*.*") if path.is_file()]
+    files = [path for path in files if "__pycache__" not in path.parts]
+    assert len(files) > 20
+    for path in files:
+        assert f"`{path.as_posix()}`" in table or f"`{path.parent.as_posix()}/`" in table, path
+
+
 @pytest.mark.parametrize("page", PAGES, ids=name)
 def test_the_examples_of_a_page_run(page, tmp_path, monkeypatch, capsys):
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
@@ -43,8 +53,8 @@ def test_the_examples_of_a_page_run(page, tmp_path, monkeypatch, capsys):
 
 def test_the_recipe_for_a_simulator_has_the_friction_of_the_nut(capsys):
     """Without load it is that of the preload, by the model itself; the page states it."""
-    (page,) = (page for page in PAGES if name(page) == "docs/howto/simulator_table.md")
-    block, _ = examples(page)
+    (page,) = (page for page in PAGES if name(page) == "docs/howto/sweep.md")
+    block = examples(page)[0]
     names = {"__name__": "example"}
     exec(compile(block.text, str(page), "exec"), names)
     stated = block.text.split("  # ")[1].splitlines()[0]

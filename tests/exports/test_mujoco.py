@@ -250,7 +250,7 @@ def test_the_walk_of_the_page(commands, example, tmp_path):
     ran = subprocess.run(
         [sys.executable, "run.py"], cwd=tmp_path / "z", capture_output=True, text=True, check=True, env={**os.environ}
     )
-    shown = Path(__file__).parents[2].joinpath("docs/howto/hand_over_mujoco.md").read_text(encoding="utf-8")
+    shown = Path(__file__).parents[2].joinpath("docs/howto/hand_over_robots.md").read_text(encoding="utf-8")
     said = [line for line in ran.stdout.splitlines() if "takes" not in line]
     assert [line for line in said if line not in shown] == []
     assert "worst: plugin < 1e-9" in ran.stdout

@@ -265,7 +265,7 @@ def test_what_the_page_does_not_compute_is_said_beside_its_field(visit):
         ("screw.ball_diameter", "-1 mm", "is no number of this field"),
         ("nut.axial_play", "5 um", "is not computed by a page without a server"),
         ("nut.preload", "150 %", "is no number of this field"),
-        ("operation.screw_speed", "", "missing"),
+        ("operation.screw_speed", "", "Give a value"),
     ):
         before = here.state()
         here.type(path, text)

@@ -37,7 +37,7 @@ def test_the_two_points_and_the_cold():
 
 
 def test_the_table_of_the_page():
-    page = (Path(__file__).parents[3] / "docs" / "howto" / "oils.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[3] / "docs" / "oils.md").read_text(encoding="utf-8")
     rows = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("|")]
     celsius = next(row for row in rows if row[0] == "°C")[1:]
     of_grade, of_sheet = (next(row for row in rows if words in row[0])[1:] for words in ("grade =", "ASTM D341"))

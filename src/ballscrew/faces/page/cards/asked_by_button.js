@@ -32,7 +32,7 @@ const ABOUT = {
 };
 
 /** Pages of the documentation on the questions. */
-const PAGES = { reversal: "howto/reversal", ripple: "howto/ripple", sensitivity: "howto/halve_the_band" };
+const PAGES = { reversal: "howto/reversal", ripple: "howto/ripple", sensitivity: "sensitivity" };
 
 /**
  * Set up the card of the question that has the name of its place.
