@@ -13,6 +13,7 @@ from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.files.tables.column_names import YES
 from ballscrew.physics.sizing import own_nut as own
+from ballscrew.physics.sizing import table_balls
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.sizing.table_balls import BY_TABLE, with_table_balls
@@ -276,3 +277,19 @@ def test_numbers_that_no_nut_has(faulty, words):
     with pytest.raises(bs.InputError, match=words) as raised:
         bs.own_nut(**{"nominal_diameter": 0.04, "lead": 0.01, "turns": 5, **faulty})
     assert len(raised.value.faults) == 1
+
+
+@pytest.mark.parametrize(
+    ("other", "cost", "is_kept"), [("inch", 3.0, True), ("inch", 1.9, False), ("metric", 2.5, False)]
+)
+def test_another_size_of_balls_must_pay(other, cost, is_kept):
+    """Of 20 grooves three fit another ball: it stays where they save more than 6, or 9 beyond inches and metric."""
+    inch, beside = (np.argmin(np.abs(table_balls.BALLS - size)) for size in (0.25 * 0.0254, 0.28125 * 0.0254))
+    ball = beside if other == "inch" else np.argmin(np.abs(table_balls.BALLS - 7.0e-3))
+    costs = np.full((20, table_balls.BALLS.size, 5, table_balls._FACTORS.size), np.inf)
+    costs[:, :, 0, 0] = 50.0
+    costs[:17, inch, 0, 0] = 0.0
+    costs[17:, inch, 0, 0] = cost
+    costs[17:, ball, 0, 0] = 0.0
+    choice = table_balls._choice(costs, np.ones(20, dtype=int))
+    assert {*choice.balls.tolist()} == ({inch, ball} if is_kept else {inch})
