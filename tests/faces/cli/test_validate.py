@@ -110,7 +110,7 @@ def test_static_ratings_stand_beside_the_dynamic_ones(every):
 
 
 def test_bands_of_the_model_stand_beside_those_of_vendors(every):
-    with_bands = {"rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-jis"}
+    with_bands = {"rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-stock", "thk-jis"}
     assert {one["set"] for one in every if "share_in_uncertainty_band" in one} == with_bands
     for one in every:
         found = [row["in_uncertainty_band"] for row in one["rows"] if "in_uncertainty_band" in row]
@@ -354,7 +354,7 @@ def test_picture_shows_all_ratios_with_their_bands():
     names = [(data.name, name) for data in SETS.values() for name in data.axes if _values(found, data.name, name) > 2]
     assert len(names) == 2 * len(SETS) - 3
     shown = {(chart.title, chart.x.quantity.name): chart for chart in charts}
-    assert [*shown] == [*names[:6], ("thk-jis", "size"), *names[6:]]
+    assert [*shown] == [*names[:8], ("thk-jis", "size"), *names[8:]]
     for (set_name, name), chart in shown.items():
         (entries,) = (entries for entries in found if entries[0].data.name == set_name)
         bands, level, *curves = chart.marks
