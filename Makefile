@@ -101,7 +101,7 @@ pages: $(READY)
 # What is written while a build goes on is not whole: out/docs/.built stands from its end to the next
 docs: $(READY)
 	@rm -f out/docs/.built
-	$(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
+	$(BIN)/sphinx-build -W --keep-going -q -j auto -b html docs out/docs
 	@touch out/docs/.built
 	$(BIN)/python docs/make_cheat_sheet.py out/cheat_sheet.pdf
 	$(BIN)/python -m pytest -q -n 0 -k built tests/docs/test_links.py
