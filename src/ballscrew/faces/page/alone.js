@@ -14,23 +14,15 @@ import { FLOODED, floodedTorqueIn, FULL_BATH, REPLENISHMENT } from "./starvation
 import * as units from "./units.js";
 
 /** @typedef {import("./case_alone.js").CaseAlone} CaseAlone */
-/** @typedef {import("./engine.js").Found} Found */
 /** @typedef {Record<string, any>} Tables */
 /** @typedef {Record<string, number[]>} Axes */
 
 const TEMPERATURE = "temperature";
 const LOAD = "axial_load";
 const SPEED = "screw_speed";
-/** A cold start and a hot machine, K. */
-const [COLD, HOT] = [273.15, 353.15];
-/** Signs of load and speed of the quadrants, by what happens there. @type {[string, number, number][]} */
-const QUADRANTS = [
-  ["drives forward", 1, 1],
-  ["is back-driven in reverse", 1, -1],
-  ["drives in reverse", -1, -1],
-  ["is back-driven forward", -1, 1],
-];
-/** Results that only a nut has. */
+/** Cases whose numbers are kept: the designs of the page, and those of before. */
+const MOST_KEPT = 16;
+/** Results that only loaded balls alone have. */
 const OF_ROWS = ["contact_load", "rolling_share"];
 
 /** Numbers between commas or colons, and a unit. */
@@ -124,7 +116,7 @@ class Alone {
     this.#runs.set(key, made);
     made.catch(() => this.#runs.delete(key));
     const [oldest] = this.#runs.keys();
-    if (this.#runs.size > this.contents.most_kept) this.#runs.delete(oldest);
+    if (this.#runs.size > MOST_KEPT) this.#runs.delete(oldest);
     return made;
   }
 
@@ -210,13 +202,12 @@ class Alone {
   /** Load and speed, each with both signs: at rest the friction is that at which it begins to turn. @param {CaseAlone} subject */
   #quadrants(subject) {
     const [load, speed] = [Math.abs(subject.inputs[LOAD]), Math.abs(subject.inputs[SPEED])];
-    const columns = {
-      [LOAD]: QUADRANTS.map(([, sign]) => sign * load),
-      [SPEED]: QUADRANTS.map(([, , sign]) => sign * speed),
-    };
-    const numbers = this.#at(subject, columns, QUADRANTS.length);
+    /** @type {[string, number, number][]} */
+    const signs = this.contents.quadrants;
+    const columns = { [LOAD]: signs.map(([, sign]) => sign * load), [SPEED]: signs.map(([, , sign]) => sign * speed) };
+    const numbers = this.#at(subject, columns, signs.length);
     return Object.fromEntries(
-      QUADRANTS.map(([name, load_sign, speed_sign], place) => {
+      signs.map(([name, load_sign, speed_sign], place) => {
         const [ideal, friction] = [numbers.ideal_torque[place], numbers.screw_torque[place]];
         const torque = speed ? numbers.drive_torque[place] : ideal + speed_sign * friction;
         const moving = numbers[load_sign === speed_sign ? "efficiency" : "back_driving_efficiency"][place];
@@ -254,7 +245,7 @@ class Alone {
     const bath = flooded === undefined ? [] : [FLOODED];
     const follows =
       subject.grade && subject.inputs[LOAD] && subject.inputs[SPEED] && !subject.kept.includes("viscosity");
-    const temperatures = [...new Set([COLD, subject.temperature, HOT])].sort((a, b) => a - b);
+    const temperatures = [...new Set([...this.contents.cold_and_hot, subject.temperature])].sort((a, b) => a - b);
     const constant = subject.inputs[REPLENISHMENT];
     const hot = {
       [TEMPERATURE]: temperatures,

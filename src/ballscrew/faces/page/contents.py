@@ -24,14 +24,12 @@ from ballscrew.faces.page.starts import starts
 from ballscrew.faces.page.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.friction.result import QUADRANTS
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.questions.curves.compute import axes_around
+from ballscrew.questions.curves.compute import COLD, HOT, axes_around
 from ballscrew.questions.run.answer import document
 from ballscrew.questions.run.compute import run
-
-#: Cases of a page whose numbers are kept: its designs, and those of before.
-MOST_KEPT = 16
 
 
 def contents(
@@ -74,7 +72,8 @@ def contents(
         "axes": {"row": axes_around(is_nut=False), "nut": axes_around(is_nut=True)},
         "vocabulary": {**words, "rows": [_row(row) for row in words["rows"]]},
         "schema": json_schema(),
-        "most_kept": MOST_KEPT,
+        "quadrants": [[name, *signs] for name, signs in QUADRANTS.items()],
+        "cold_and_hot": [COLD, HOT],
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
 
