@@ -11,6 +11,7 @@ from urllib.parse import urlencode
 
 import axe_playwright_python
 import pytest
+from playwright.sync_api import expect
 
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.uncertainty import bands
@@ -241,7 +242,7 @@ def test_the_file_and_the_link_to_the_program_hold_the_case(visit):
         page.locator("#downloads button", has_text="TOML").click()
     assert tomllib.loads(Path(download.value.path()).read_text()) == found["case"]
     page.locator("[data-view=duty]").click()
-    assert "ballscrew duty case.toml" in page.locator("#duty").inner_text()
+    expect(page.locator("#duty")).to_contain_text("ballscrew duty case.toml")
     link = page.locator("#duty a").get_attribute("href")
     assert link == f"http://127.0.0.1:8017/{page.evaluate('location.hash')}"
     other = visit().open(page.evaluate("location.hash"))
@@ -255,7 +256,7 @@ def test_a_screw_is_found_by_its_size_and_those_of_the_program_are_said(visit):
     here.page.locator("[data-row='rexroth-40x10x6-6-double']").click()
     here.page.wait_for_function("() => window.ballscrew.case.screw.catalogue === 'rexroth-40x10x6-6-double'")
     search.fill("thk bnf4010")
-    assert "ballscrew check thk" in here.page.locator("#screw-search .found").inner_text()
+    expect(here.page.locator("#screw-search .found")).to_contain_text("ballscrew check thk")
 
 
 def test_what_the_page_does_not_compute_is_said_beside_its_field(visit):
@@ -269,7 +270,7 @@ def test_what_the_page_does_not_compute_is_said_beside_its_field(visit):
     ):
         before = here.state()
         here.type(path, text)
-        assert words in here.page.locator(f"#f-{path.replace('.', '-')}-fault").inner_text(), path
+        expect(here.page.locator(f"#f-{path.replace('.', '-')}-fault"), path).to_contain_text(words)
         assert here.state()["outputs"] == before["outputs"]
         here.page.locator("#undo").click()
         here.rest()
@@ -280,7 +281,7 @@ def test_what_the_page_does_not_compute_is_said_beside_its_field(visit):
 def test_a_row_that_the_program_computes_is_said_and_the_page_goes_on(visit):
     """Defect: nothing was shown, for good."""
     here = visit().open("#A=thk-bnfn4010-5")
-    assert "thk-bnfn4010-5" in here.page.locator("#notice").inner_text()
+    expect(here.page.locator("#notice")).to_contain_text("thk-bnfn4010-5")
     assert_is_of_the_program(here.state())
 
 
@@ -302,14 +303,14 @@ def test_where_the_model_does_not_hold_is_said(visit):
     here.slide("lubricant.viscosity", 500)
     found = here.slide("operation.axial_load", 50)
     assert found["outputs"]["valid"] is False
-    assert "Outside the model's validity: elastic regime" in here.page.locator("#verdicts").inner_text()
+    expect(here.page.locator("#verdicts")).to_contain_text("Outside the model's validity: elastic regime")
 
 
 def test_a_link_to_what_the_page_has_not_is_said(visit):
     here = visit()
     here.page.goto(f"{here.address}#A=thk-nowhere&A.screw.lead=6+mm")
     here.page.wait_for_selector("#notice:not([hidden])")
-    assert "thk-nowhere" in here.page.locator("#notice").inner_text()
+    expect(here.page.locator("#notice")).to_contain_text("thk-nowhere")
 
 
 def violations(here):
