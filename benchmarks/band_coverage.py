@@ -14,9 +14,9 @@ from unittest import mock
 
 import numpy as np
 
-from ballscrew.engine.uncertainty import default_uncertainties as defaults
+from ballscrew.engine.uncertainty import default_uncertainties
 from ballscrew.evidence.validation.entries import Entry, Point, may_be_fitted
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 from ballscrew.questions.validate.uncertainty import with_bands
 
 SETS = ("rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-jis")
@@ -34,16 +34,16 @@ GROUPS: Mapping[str, Callable[[str, Point], bool]] = {
 
 def with_factor(entry: Entry, factor: float) -> Entry:
     """An entry with the bands of its rows where the force between balls is uncertain by this factor."""
-    table = dict(defaults.default_uncertainties())
+    table = dict(default_uncertainties.default_uncertainties())
     table[NAME] = dataclasses.replace(table[NAME], factor=factor)
-    with mock.patch.object(defaults, "default_uncertainties", return_value=table):
+    with mock.patch.object(default_uncertainties, "default_uncertainties", return_value=table):
         return with_bands(entry)
 
 
 def main() -> None:
     """Print the table as Markdown."""
-    request = dataclasses.replace(validation.request(SETS), calibration=None)
-    entries = [found[0] for found, _ in validation.evaluate(request)]
+    request = dataclasses.replace(compute.request(SETS), calibration=None)
+    entries = [found[0] for found, _ in compute.evaluate(request)]
     print("| factor | " + " | ".join(f"{words}: within, upper / lower end" for words in GROUPS) + " |")
     print("|---" * (1 + len(GROUPS)) + "|")
     for factor in FACTORS:

@@ -31,7 +31,7 @@ from ballscrew.physics.laws.friction import (
 )
 from ballscrew.physics.laws.inlet import Inlet, flooded_inlet
 from ballscrew.physics.laws.nut_losses import ReturnBraking, ShearedOil, SpinUp
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 #: The sets that the calibrations are fitted to, and a column of each that is a maximum and no band.
 FITTED = ("rexroth-double-nut", "rexroth-single-nut")
@@ -122,7 +122,7 @@ LAWS: Mapping[str, OfRow] = {
 def points(name: str, model: OfRow) -> list[Point]:
     """The rows of a set against their bands, with a model for each."""
     found: list[Point] = []
-    for row in validation.shipped_rows(SETS[name]):
+    for row in compute.shipped_rows(SETS[name]):
         values = {column: value for column, value in row.items() if column != _MAXIMUM}
         found += [p for p in SETS[name].evaluate(model(values), values, Conditions()) if isinstance(p, Point)]
     return found
@@ -221,7 +221,7 @@ def changes_table() -> str:
         groups: dict[str, list[float]] = {}
         for name in (*FITTED, "hiwin-stock", "thk-jis"):
             data = SETS[name]
-            for row in validation.shipped_rows(data):
+            for row in compute.shipped_rows(data):
                 for point in data.evaluate(model, row, data.conditions):
                     groups.setdefault(f"{data.maker}, {point.group}", []).append(point.ratio)
         if not lines:

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.papers.olaru2005 import SCREW
-from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import compute
 
 CASE = Path(__file__).parents[1] / "examples" / "olaru2005.toml"
 MODELS: dict[str, Callable[[], bs.FrictionModel]] = {
@@ -83,7 +83,7 @@ def measured(name: str, samples: int, rows: int, seeds: int) -> dict[str, Any]:
     model = MODELS[name]()
     case = case_file.build(case_file.read(CASE), name, CASE.parent)
     columns = log(model, rows, 0)
-    first_band, warm_band = seconds(lambda: band.band(case, band.BandOptions(samples=samples)))
+    first_band, warm_band = seconds(lambda: compute.band(case, compute.BandOptions(samples=samples)))
     first_fit, warm_fit = seconds(lambda: bs.fit(model, SCREW, OIL, columns, list(TRUE)))
     return {
         "band": {"first_s": first_band, "s": warm_band},

@@ -40,7 +40,7 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.ball_chain import two_neighbours
 from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 from calibration_trends import CLASSES, FITTED, changes_table, strata_table, trends_table
 from maker_calibrations import DECLARED_ROWS, line_of
 from maker_calibrations import FITS as MAKERS
@@ -60,7 +60,7 @@ def entries(model: FrictionModel, on_four_contacts: FrictionModel | None = None)
     for data, model in zip(map(SETS.__getitem__, FITTED), models, strict=True):
         rows = [
             {name: value for name, value in row.items() if name != "no_load_torque_2pct_max"}
-            for row in validation.shipped_rows(data)
+            for row in compute.shipped_rows(data)
         ]
         points = [point for row in rows for point in data.evaluate(model, row, Conditions())]
         found.append(Entry(data=data, model=model, calibration=None, points=points))
@@ -287,7 +287,7 @@ def toml_text(found: Mapping[str, Fit]) -> str:
             *(["declared_rows = true"] if kept.declared_rows else []),
             "",
             f"[{name}.data]",
-            *(f'"{SETS[one].file}" = "{validation.fingerprint(SETS[one].file)}"' for one in kept.sets),
+            *(f'"{SETS[one].file}" = "{compute.fingerprint(SETS[one].file)}"' for one in kept.sets),
             "",
         ]
     return "\n".join(lines[:-1]) + "\n"

@@ -21,7 +21,7 @@ from ballscrew.evidence.validation.entries import Point, may_be_fitted
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.friction.calibrations import with_parameters
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 #: Boundary friction and the force between balls of the reference model.
 BOUNDARY, SHARE = 0.12, 0.0075
@@ -70,7 +70,7 @@ class MakerFit(NamedTuple):
 def _points(name: str, share: float) -> Mapping[str, Point]:
     data = SETS[name]
     model = with_parameters(FrictionModel.reference(), BOUNDARY, share)
-    found = [point for row in validation.shipped_rows(data) for point in data.evaluate(model, row, data.conditions)]
+    found = [point for row in compute.shipped_rows(data) for point in data.evaluate(model, row, data.conditions)]
     return {point.name: point for point in found}
 
 

@@ -18,11 +18,10 @@ import numpy as np
 from pymoo.indicators.hv import HV
 
 from ballscrew.questions.optimise import compute
-from ballscrew.questions.optimise.design_model import DesignModel
-from ballscrew.questions.optimise.design_space import design_space
-from ballscrew.questions.optimise.search import Found, search
+from ballscrew.questions.optimise.compute import Found, search
+from ballscrew.questions.optimise.design_model import DesignModel, design_space
 from ballscrew.questions.select.need import need_of
-from ballscrew.questions.select.pareto import front
+from ballscrew.questions.select.requirements import front
 from timing import seconds
 
 NEED = Path(__file__).parents[1] / "examples" / "needs" / "feed_axis.toml"

@@ -19,7 +19,7 @@ from ballscrew.engine.uncertainty.default_uncertainties import default_uncertain
 from ballscrew.evidence.validation.entries import Entry, Point
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.solvers.load_distribution import preload_growth
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 SETS = ("rexroth-single-nut", "hiwin-stock")
 
@@ -68,9 +68,9 @@ def kind_of(entry: Entry, point: Point) -> str:
 
 def main() -> None:
     """Print the table as Markdown."""
-    request = dataclasses.replace(validation.request(SETS), calibration=None)
+    request = dataclasses.replace(compute.request(SETS), calibration=None)
     by_kind: dict[str, list[Row]] = {}
-    for entries, _ in validation.evaluate(request):
+    for entries, _ in compute.evaluate(request):
         for row in rows_of(entries[0]):
             by_kind.setdefault(row.kind, []).append(row)
     headings = ("rows", "number", "oversize, µm", "preload by half a gauge", "stated half range", "model / middle")

@@ -65,13 +65,13 @@ class Plain(Network):
 
 def plain(network: Network, seconds: float) -> tuple[float, int, float]:
     """Time of the plain way, its calls, and the temperature of the nut at the end."""
-    from ballscrew.axis.thermal import warm_up as module
+    from ballscrew.axis.thermal import warm_up
 
     fields = {field.name: getattr(network, field.name) for field in dataclasses.fields(Network)}
     own = Plain(**fields)
     start = np.full(own.size, START)
     before = time.perf_counter()
-    instants, states, stopped = module._integrated(own, start, np.array([0.0, seconds]), works=True)
+    instants, states, stopped = warm_up._integrated(own, start, np.array([0.0, seconds]), works=True)
     took = time.perf_counter() - before
     found = WarmUp(duty(), own, instants, states, np.ones(instants.size, dtype=bool), stopped)
     return took, own.calls[0], float(found.nut_temperature[-1])

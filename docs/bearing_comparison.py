@@ -22,7 +22,6 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
-from ballscrew.questions.shared import chart_files as files
 from ballscrew.questions.shared import charts
 
 DENSITY = 870.0
@@ -135,4 +134,4 @@ def write(folder: Path) -> None:
     """The table as Markdown, the picture as SVG."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "bearings.md").write_text(table(), encoding="utf-8")
-    files.draw(picture, folder / "bearings.svg")
+    charts.draw(picture, folder / "bearings.svg")

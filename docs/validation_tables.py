@@ -20,10 +20,8 @@ from ballscrew.physics.friction.calibrations import calibrated, calibration, cal
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.rules import RULES
-from ballscrew.questions.shared import chart_files as files
-from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate import sheet as sheets
-from ballscrew.questions.validate import summary as summaries
+from ballscrew.questions.shared import charts
+from ballscrew.questions.validate import compute, sheet
 
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
 #: Sets of more rows are neither printed nor drawn row by row.
@@ -35,8 +33,8 @@ C_A, C_0A = 0.015, 0.01
 @functools.cache
 def found():
     """All sets: the request, and the entries of each set."""
-    asked = validation.request()
-    return asked, [entries for entries, _ in validation.evaluate(asked)]
+    asked = compute.request()
+    return asked, [entries for entries, _ in compute.evaluate(asked)]
 
 
 def write(folder: Path) -> None:
@@ -64,12 +62,12 @@ def write(folder: Path) -> None:
     for name, text in pages.items():
         (folder / name).write_text(text, encoding="utf-8")
     drawn = [entries for entries in sets if len(entries[0].points) <= MOST_ROWS]
-    files.draw(lambda: pictures.picture(sheets.picture(drawn, asked)), folder / "validation.svg")
+    charts.draw(lambda: pictures.picture(sheet.picture(drawn, asked)), folder / "validation.svg")
 
 
 def _rows(entries, asked) -> str:
     """The rows of a set as the command prints them; of a whole catalogue the command alone."""
-    text = terminal.text(sheets.sheet(entries, asked))
+    text = terminal.text(sheet.sheet(entries, asked))
     if len(entries[0].points) <= MOST_ROWS:
         return text
     title, _, _ = text.partition("\n")
@@ -94,7 +92,7 @@ def summary() -> str:
 @functools.cache
 def _of_makers():
     asked, sets = found()
-    return summaries.summary(asked, sets)[0]
+    return sheet.summary(asked, sets)[0]
 
 
 def _of_sheet(table: Table) -> str:
@@ -105,7 +103,7 @@ def _of_sheet(table: Table) -> str:
 
 def makers_table() -> str:
     """No-load torques by maker and kind of nut: the model, its calibrations, and rules."""
-    return _of_sheet(next(sheets.of_makers(_of_makers()).of_kind(Table)))
+    return _of_sheet(next(sheet.of_makers(_of_makers()).of_kind(Table)))
 
 
 def used_table() -> str:
@@ -120,7 +118,7 @@ def groups_table(name: str) -> str:
     """The kinds of nut, or the makers, of a set: the model as it is and calibrated, and other definitions."""
     asked, sets = found()
     entries = next(entries for entries in sets if entries[0].data.name == name)
-    return _of_sheet(next(sheets.sheet(entries, asked).of_kind(Table)))
+    return _of_sheet(next(sheet.sheet(entries, asked).of_kind(Table)))
 
 
 def rules_table() -> str:
@@ -131,7 +129,7 @@ def rules_table() -> str:
             continue
         name = entries[0].data.name
         own = [(entry, f"**model, {entry.calibration or 'uncalibrated'}**") for entry in entries]
-        rules = [(rule, sheets.WORDS[rule.rule]) for rule in entries[0].rules]
+        rules = [(rule, sheet.WORDS[rule.rule]) for rule in entries[0].rules]
         for one, words in [*own, *rules]:
             mean = f"{one.mean_ratio:.2f}"
             scatter = "–" if math.isnan(one.std_ratio) else f"{one.std_ratio:.2f}"
@@ -158,7 +156,7 @@ def residuals_after_rules() -> str:
             continue
         name = entries[0].data.name
         columns = [(f"**model, {e.calibration or 'uncalibrated'}**", [p.ratio for p in e.points]) for e in entries]
-        columns += [(sheets.WORDS[r.rule], [p.laws[r.rule] for p in points]) for r in entries[0].rules]
+        columns += [(sheet.WORDS[r.rule], [p.laws[r.rule] for p in points]) for r in entries[0].rules]
         for words, ratios in columns:
             factor = math.exp(sum(map(math.log, ratios)) / len(ratios))
             left = math.sqrt(sum((math.log(r / factor)) ** 2 for r in ratios) / (len(ratios) - 1))
@@ -322,8 +320,8 @@ def oil_table() -> str:
     names = ("rexroth-double-nut", "rexroth-single-nut")
     lines = [["oil", *(f"{name}, {who}" for name in names for who in ("uncalibrated", "calibrated"))], ["---"] * 5]
     for temperature in ("15 degC", "25 degC", "40 degC"):
-        asked = validation.request(names, temperature=temperature)
-        entries = [entry for entries, _ in validation.evaluate(asked) for entry in entries]
+        asked = compute.request(names, temperature=temperature)
+        entries = [entry for entries, _ in compute.evaluate(asked) for entry in entries]
         cells = [
             f"{entry.mean_ratio:.2f} ± {entry.std_ratio:.2f}, {_percent(entry.share_in_band)}" for entry in entries
         ]
@@ -344,7 +342,7 @@ def definitions_table() -> str:
                     _mean(entry),
                 ]
             )
-            lines += [["", sheets.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
+            lines += [["", sheet.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
     return _table(lines)
 
 

@@ -18,8 +18,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.run import answer as run_documents
-from ballscrew.questions.run import compute as runs
+from ballscrew.questions.run import answer, compute
 from ballscrew.questions.run.sheet import sheet
 
 COUNT, SECONDS = 3_000, 130.0
@@ -118,8 +117,8 @@ def attempt(seed: int, number: int, _: int) -> Outcome:
 def not_finite(path: Any) -> str:
     """Run a case and write its result; words on a number that is not finite without a warning."""
     case = case_file.load(path)
-    found = runs.run(case)
-    document = run_documents.document(found)
+    found = compute.run(case)
+    document = answer.document(found)
     as_json(document)
     terminal.text(sheet(found))
     bad = [name for name in TORQUES if not math.isfinite(float(getattr(found.friction, name)))]

@@ -12,7 +12,7 @@ from benchmarks.hostile.tally import Outcome, Tally
 from numpy.typing import NDArray
 
 import ballscrew as bs
-from ballscrew.exports import hand_over as frame
+from ballscrew.exports import hand_over
 from ballscrew.exports.programs.interpreter import Interpreted, runs_here
 from ballscrew.exports.programs.program_file import program_file
 from ballscrew.exports.subject import HandOver
@@ -55,7 +55,7 @@ def run(tally: Tally, seed: int) -> None:
 @functools.cache
 def _handed(model: str, nut: str) -> tuple[HandOver, Interpreted]:
     screw = bs.catalogue()["rexroth-16x5x3-4-double"].screw(nut=NUTS[nut])
-    found = frame.export_job(
+    found = hand_over.export_job(
         MODELS[model](), screw, bs.Lubricant.from_grade("ISO VG 100", temperature=313.15), "program"
     )
     return found, Interpreted(program_file(found))

@@ -18,7 +18,7 @@ from benchmarks.hostile.tally import Outcome, Tally
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.fit import compute as fits
+from ballscrew.questions.fit import compute
 from ballscrew.questions.fit.log import steady_log
 from ballscrew.questions.fit.options import FitOptions
 from support.fit_logs import FRICTION, HEADINGS, OFFSET, PAPER, columns
@@ -250,7 +250,7 @@ def attempt(seed: int, number: int, _: int) -> Outcome:
     try:
         case = case_file.build(tomllib.loads(PAPER), None, Path())
         options = FitOptions(free=free, keep_going=bool(number % 2))
-        found = fits.fit(case, steady_log(case, path, options), options)
+        found = compute.fit(case, steady_log(case, path, options), options)
     except InputError:
         return Outcome(refused=1)
     except Exception as error:

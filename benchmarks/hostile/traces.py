@@ -17,9 +17,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.duty import answer as documents
-from ballscrew.questions.duty import compute
-from ballscrew.questions.duty import verdicts as duty_verdicts
+from ballscrew.questions.duty import answer, compute, verdicts
 from ballscrew.questions.duty.sheet import sheet
 
 COUNT, SECONDS = 300, 120.0
@@ -118,13 +116,13 @@ def attempt(seed: int, number: int, _: int) -> Outcome:
     try:
         tables = {**_tables(), "motion": {"kind": "trajectory", "file": str(path)}}
         report = compute.duty(case_file.build(tables, None, ROOT / "examples", moves=True))
-        as_json(documents.document(report))
+        as_json(answer.document(report))
         terminal.text(sheet(report))
     except InputError:
         return Outcome(refused=1)
     except Exception as error:
         return Outcome(wrong=[f"{words}: {workers.last_line(error)}"])
     bad = [name for name in NUMBERS if not math.isfinite(report.numbers[name])]
-    if bad and not duty_verdicts.warnings(report):
+    if bad and not verdicts.warnings(report):
         return Outcome(wrong=[f"{words}: {', '.join(bad)} not finite, without a warning"])
     return Outcome(answered=1)

@@ -14,7 +14,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.screw_tables import catalogue as people
+from ballscrew.cases.screw_tables.catalogue import case_text, chosen
 from ballscrew.cases.screw_tables.nut_kinds import NUTS, kind_in, kind_of
 from ballscrew.physics.sizing.catalogue import SMALLEST_BALL, CatalogueRow, catalogue, printed_rows
 
@@ -150,7 +150,7 @@ def test_list_with_words(ballscrew):
 
 def test_words_choose_the_rows_that_have_all_of_them():
     singles = [name for name in ROWS if name.startswith("rexroth") and name.endswith("single")]
-    assert [row.name for row in people.chosen(ROWS, "Single REXROTH")] == singles
+    assert [row.name for row in chosen(ROWS, "Single REXROTH")] == singles
 
 
 def test_sizes_are_those_of_the_row_and_not_of_its_name(ballscrew):
@@ -201,7 +201,7 @@ def test_names_that_are_not_there(ballscrew):
 @every_row
 def test_a_case_is_the_screw_of_the_row(row, tmp_path):
     path = tmp_path / "my.toml"
-    path.write_text(people.case_text(row), encoding="ascii")
+    path.write_text(case_text(row), encoding="ascii")
     case = case_file.load(path)
     assert kind_of(case.nut) == (row.nut or "single")
     for field in dataclasses.fields(case.screw):
@@ -429,8 +429,8 @@ def test_the_head_of_a_case_calls_a_preload_an_example_only_where_it_is_one():
     listed = ROWS["hiwin-40-20k4"]
     examples = "# The screw of a catalogue row; preload, oil and operating point are examples."
     others = "# The screw of a catalogue row; oil and operating point are examples."
-    assert others in people.case_text(listed)
+    assert others in case_text(listed)
     double = dataclasses.replace(listed, nut="double")
-    assert examples in people.case_text(double)
-    assert others in people.case_text(dataclasses.replace(double, preload=2400.0))
-    assert others in people.case_text(dataclasses.replace(double, preload_share=0.05))
+    assert examples in case_text(double)
+    assert others in case_text(dataclasses.replace(double, preload=2400.0))
+    assert others in case_text(dataclasses.replace(double, preload_share=0.05))

@@ -9,7 +9,7 @@ from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import SCurve, Segments, Sine, Trapezoid
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema import case_schema as schema
+from ballscrew.cases.schema import case_schema
 from ballscrew.physics.solvers import load_distribution
 from ballscrew.questions.duty.compute import duty
 from support.commands import ROOT
@@ -137,7 +137,7 @@ def test_a_case_of_other_commands_may_have_a_motion():
 
 def test_the_example_of_an_efficiency_can_be_written():
     """No screw gives more work than it takes."""
-    (example,) = schema.json_schema()["$defs"]["Model"]["properties"]["efficiency"]["examples"]
+    (example,) = case_schema.json_schema()["$defs"]["Model"]["properties"]["efficiency"]["examples"]
     case = built(SCREW + MOVING, "model.name=constant-efficiency", f"model.efficiency={example}")
     assert 0 < case.efficiency <= 1
 
@@ -218,7 +218,7 @@ def test_the_schema_knows_the_example_and_no_other_keys():
         "jsonschema_rs", reason="jsonschema_rs is not among the oldest packages that are tested"
     )
     tables = tomllib.loads((ROOT / "examples" / "vertical_axis.toml").read_text(encoding="utf-8"))
-    known = schema.json_schema()
+    known = case_schema.json_schema()
     jsonschema_rs.validate(known, tables)
     for table, key in (("axis", "mas"), ("motion", "dwel"), ("motor", "peak")):
         assert not jsonschema_rs.is_valid(known, {**tables, table: {**tables[table], key: "1 kg"}})

@@ -12,15 +12,15 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema import case_schema as schema
+from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.laws import ball_chain, friction, rolling
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.pure_rolling import curvature_slip
 
-EVERY_LAW = [(slot, name) for slot, known in schema.LAWS.items() for name in known]
-WITH_COEFFICIENTS = [(slot, name) for slot, name in EVERY_LAW if schema.coefficients_of(slot, name)]
+EVERY_LAW = [(slot, name) for slot, known in case_schema.LAWS.items() for name in known]
+WITH_COEFFICIENTS = [(slot, name) for slot, name in EVERY_LAW if case_schema.coefficients_of(slot, name)]
 
 
 @pytest.fixture
@@ -45,24 +45,26 @@ def torque(case):
     return float(case.model(case.screw, case.lubricant, **point).screw_torque)
 
 
-@pytest.mark.parametrize("slot", schema.LAWS)
+@pytest.mark.parametrize("slot", case_schema.LAWS)
 def test_laws_of_all_models_have_names(slot):
     for model in presets().values():
-        assert schema.name_of_law(slot, getattr(model, slot)) in schema.LAWS[slot]
+        assert case_schema.name_of_law(slot, getattr(model, slot)) in case_schema.LAWS[slot]
 
 
 def test_every_slot_with_a_choice_is_there():
-    slots = {field.name for field in dataclasses.fields(bs.FrictionModel)} - set(schema.fields_of(bs.FrictionModel))
-    assert set(schema.LAWS) == slots - {"name", "contact_load"}
+    slots = {field.name for field in dataclasses.fields(bs.FrictionModel)} - set(
+        case_schema.fields_of(bs.FrictionModel)
+    )
+    assert set(case_schema.LAWS) == slots - {"name", "contact_load"}
 
 
 @pytest.mark.parametrize(("slot", "name"), EVERY_LAW)
 def test_each_law_by_name(slot, name, tables):
     """A name is the law with its own coefficients, alone or as ``law`` of a table, and it works."""
-    law, known = getattr(model_of(tables, **{slot: name}), slot), schema.LAWS[slot][name]
+    law, known = getattr(model_of(tables, **{slot: name}), slot), case_schema.LAWS[slot][name]
     assert law is known or (type(law) is known and vars(law) == vars(known()))
     assert type(getattr(model_of(tables, **{slot: {"law": name}}), slot)) is type(law)
-    assert schema.name_of_law(slot, law) == name
+    assert case_schema.name_of_law(slot, law) == name
     tables["model"] = {"name": "reference", slot: name}
     assert math.isfinite(torque(case_file.build(tables)))
 
@@ -70,8 +72,8 @@ def test_each_law_by_name(slot, name, tables):
 @pytest.mark.parametrize(("slot", "name"), WITH_COEFFICIENTS)
 def test_each_coefficient(slot, name, tables):
     """All coefficients of a law can be set, in their units, and come back with the inputs."""
-    known = schema.coefficients_of(slot, name)
-    defaults = schema.LAWS[slot][name]()
+    known = case_schema.coefficients_of(slot, name)
+    defaults = case_schema.LAWS[slot][name]()
     values = {field: 0.9 * getattr(defaults, field) for field in known}
     written = {f: values[f] if known[f].unit == "1" else f"{values[f]} {known[f].unit}" for f in known}
     law = getattr(model_of(tables, **{slot: {"law": name, **written}}), slot)
@@ -266,9 +268,9 @@ def accepts(rule, value):
 
 @pytest.fixture(scope="module")
 def slots():
-    document = json.loads(json.dumps(schema.json_schema()))
+    document = json.loads(json.dumps(case_schema.json_schema()))
     properties = document["$defs"]["Model"]["properties"]
-    assert set(schema.LAWS) < set(properties)
+    assert set(case_schema.LAWS) < set(properties)
     return properties
 
 
@@ -279,7 +281,7 @@ def test_schema_names_the_default_model(slots):
 
 @pytest.mark.parametrize(("slot", "name"), EVERY_LAW)
 def test_schema_knows_every_law_and_coefficient(slot, name, slots):
-    rule, known = slots[slot], schema.coefficients_of(slot, name)
+    rule, known = slots[slot], case_schema.coefficients_of(slot, name)
     written = {f: 0.5 if q.unit == "1" else f"1 {q.shown_in}" for f, q in known.items()}
     assert accepts(rule, name)
     assert accepts(rule, {"law": name, **written})

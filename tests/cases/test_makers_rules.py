@@ -6,7 +6,7 @@ import pytest
 
 from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.cases.case_files.makers_rules import by_rules, subject_of
-from ballscrew.questions.run import makers
+from ballscrew.questions.run import compute
 from ballscrew.questions.run.compute import run
 from support.commands import ROOT
 
@@ -40,8 +40,8 @@ def test_without_preload_there_is_no_rule():
     slack = case_file.load(EXAMPLE, ["nut.preload=0 N"])
     assert by_rules(slack) == ()
     found = run(slack)
-    assert makers.messages(found.case, found.nut) == []
-    assert makers.verdicts(found.case, found.nut) == []
+    assert compute.messages(found.case, found.nut) == []
+    assert compute.verdicts(found.case, found.nut) == []
 
 
 def test_the_nominal_diameter_is_that_of_the_row(case):
@@ -73,7 +73,7 @@ def test_rows_of_another_maker_are_called_so(case):
 def test_the_rules_contradict_each_other_by_their_own_ends(case):
     found = run(case)
     torques = [one.torque for one in by_rules(case)]
-    line, contradiction = makers.messages(found.case, found.nut)
+    line, contradiction = compute.messages(found.case, found.nut)
     assert f"by a factor of {max(torques) / min(torques):.2f}" in contradiction
     assert line.startswith(f"drag torque without seals {found.nut.drag_of_balls:.4g} N m; by the rules of makers: ")
     assert f": Rexroth, its maker, {torques[0]:.4g} N m (model / rule " in line
@@ -87,7 +87,7 @@ def test_a_verdict_where_the_model_is_far_from_the_maker(case, share, told):
     found = run(case)
     torque = share * by_rules(case)[0].torque
     nut = dataclasses.replace(found.nut, preload_drag=torque, idle_losses={})
-    records = makers.verdicts(found.case, nut)
+    records = compute.verdicts(found.case, nut)
     assert [(one.id, one.severity) for one in records] == [("verdict.rule_of_maker", "info")] * told
     assert [one.value for one in records] == pytest.approx([share] * told)
-    assert makers.verdicts(of_make(found.case, "Kuroda"), nut) == []
+    assert compute.verdicts(of_make(found.case, "Kuroda"), nut) == []

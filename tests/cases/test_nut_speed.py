@@ -10,7 +10,7 @@ from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Normal
 from ballscrew.questions.run.compute import run
-from ballscrew.questions.sweep import table as sweep_files
+from ballscrew.questions.sweep import table
 from ballscrew.questions.sweep.compute import plan, sweep
 
 RPM = 2 * math.pi / 60
@@ -69,7 +69,7 @@ def test_a_sweep_over_the_lead_keeps_it(tmp_path):
     alone = [float(run(built("12 m/min", lead=lead)).friction.screw_torque) for lead in ("20 mm", "40 mm")]
     assert swept.screw_torque.to_numpy() == pytest.approx(alone, rel=1e-9)
     assert swept.screw_speed.to_numpy() / RPM == pytest.approx([600, 300])
-    sweep_files.write(swept, planned, tmp_path / "sweep.xlsx")  # a file of a speed for each lead
+    table.write(swept, planned, tmp_path / "sweep.xlsx")  # a file of a speed for each lead
     turning = built("600 rpm", lead="20 mm")
     assert sweep(turning, plan(turning, ["lead=20, 40 mm"], [], None)).screw_speed / RPM == pytest.approx(600)
 

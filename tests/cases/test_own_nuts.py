@@ -6,7 +6,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.screw_tables import catalogue as people
+from ballscrew.cases.screw_tables import catalogue
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.ratings import ratings_of
@@ -78,7 +78,7 @@ def test_a_case_of_a_row_has_its_nut(name, table, tmp_path):
         found = case_file.build(changed, folder=tmp_path).screw.nut
         assert found == bs.DoubleNut(2000.0, bodies=Bodies(nut_outer_diameter=0.07), losses={"seals": bs.Seals(1.0)})
     path = tmp_path / "own.toml"
-    path.write_text(people.case_text(row), encoding="ascii")
+    path.write_text(catalogue.case_text(row), encoding="ascii")
     written = case_file.load(path).screw.nut
     assert written.losses == nut.losses
     assert written.bodies == Bodies(nut_outer_diameter=row.nut_outer_diameter)

@@ -21,7 +21,7 @@ from ballscrew.physics.friction.model import presets
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
 from ballscrew.physics.laws.rolling import Hysteresis
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 ROOT = Path(__file__).parents[2]
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
@@ -127,7 +127,7 @@ def test_no_catalogue_row_is_implausible():
 
 @pytest.mark.slow
 def test_no_validation_row_is_implausible():
-    for entries, _ in validation.evaluate(validation.request(model="corrected")):
+    for entries, _ in compute.evaluate(compute.request(model="corrected")):
         for point in (point for entry in entries for point in entry.points):
             assert subjects(point.warnings) == [], point.name
 

@@ -8,7 +8,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, descriptions, nut_tables
-from ballscrew.cases.screw_tables import catalogue as people
+from ballscrew.cases.screw_tables import catalogue
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.shared import own_screws
@@ -105,9 +105,9 @@ def _written(folder, more):
 
 def test_the_case_of_a_row_keeps_them(rows, tmp_path):
     path = tmp_path / "of_row.toml"
-    path.write_text(people.case_text(rows["A"]), encoding="utf-8")
+    path.write_text(catalogue.case_text(rows["A"]), encoding="utf-8")
     assert case_file.load(path).screw.nut.spacer_balls
-    assert "spacer" not in people.case_text(rows["B"])
+    assert "spacer" not in catalogue.case_text(rows["B"])
 
 
 @pytest.mark.slow

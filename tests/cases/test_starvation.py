@@ -14,30 +14,29 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.laws.inlet import Inlet
-from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import document as band_documents
+from ballscrew.questions.band import compute, document
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.check import compute as check
-from ballscrew.questions.check.sheet import of_rows as check_of_rows
-from ballscrew.questions.duty import answer as duty_documents
-from ballscrew.questions.duty.compute import duty as duty_of
-from ballscrew.questions.duty.sheet import sheet as duty_sheet
+from ballscrew.questions.check.sheet import of_rows
+from ballscrew.questions.duty import answer
+from ballscrew.questions.duty.compute import duty
+from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.run import answer as run_documents
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.run.sheet import SHOWN, results_table
 from ballscrew.questions.run.sheet import meaning as meaning_of
 from ballscrew.questions.run.sheet import of_rows as run_of_rows
 from ballscrew.questions.service import answer as service_documents
-from ballscrew.questions.service import compute as service
+from ballscrew.questions.service.compute import Reading, of_torque
 from ballscrew.questions.shared import every_row
 from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweep
-from ballscrew.questions.sweep import rows as sweep_rows
+from ballscrew.questions.sweep import table
 from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.warm_up import answer as warm_up_documents
-from ballscrew.questions.warm_up import compute as warm_up
 from ballscrew.questions.warm_up import self_heating
-from ballscrew.questions.warm_up.self_heating_document import with_self_heating
+from ballscrew.questions.warm_up.answer import with_self_heating
+from ballscrew.questions.warm_up.compute import load, warmed_up
 from ballscrew.questions.warm_up.sheet import sheet as warm_up_sheet
 from support.commands import ROOT
 
@@ -98,15 +97,15 @@ def test_what_friction_holds_in_motion_alone_is_no_self_locking():
 
 def test_the_band_says_where_the_full_bath_lies():
     case = case_with()
-    report = band.band(case, band.BandOptions(samples=2, only_given=True))
-    found = {record.id: record for record in band_documents.verdicts(case, report)}["band.flooded"]
+    report = compute.band(case, compute.BandOptions(samples=2, only_given=True))
+    found = {record.id: record for record in document.verdicts(case, report)}["band.flooded"]
     assert found.value == run(case).friction.flooded_torque
     assert found.limit == report.band["screw_torque"].both.high
     assert f"a full bath of oil, {found.value:.4g} N m" in found.text
     assert "inlet" in report.band.alternatives
     # of a fit, which exchanges no law, the band is of one track
     alone = dataclasses.replace(report, band=dataclasses.replace(report.band, alternatives={}))
-    said = {record.id: record for record in band_documents.verdicts(case, alone)}["band.flooded"]
+    said = {record.id: record for record in document.verdicts(case, alone)}["band.flooded"]
     assert said.text.startswith("the band takes oil to come back into the track late")
 
 
@@ -118,7 +117,7 @@ def test_the_band_holds_both_torques_that_are_named(load):
     tables["lubricant"] = {"oil": "Arcanol LOAD150", "temperature": "-10 degC"}
     tables["operation"]["axial_load"] = load
     case = case_file.build(tables)
-    report = band.band(case, band.BandOptions(samples=512))
+    report = compute.band(case, compute.BandOptions(samples=512))
     found, both = run(case).friction, report.band["screw_torque"].both
     assert found.starvation
     assert both.low <= found.screw_torque < found.flooded_torque == report.flooded_torque <= both.high
@@ -140,7 +139,7 @@ def tables_of_duty(temperature, *settings):
 
 def document_of_duty(temperature, *settings):
     case = case_file.build(tables_of_duty(temperature, *settings), moves=True)
-    return duty_documents.document(duty_of(case))
+    return answer.document(duty(case))
 
 
 @pytest.mark.slow
@@ -197,9 +196,7 @@ def test_the_motor_is_judged_by_the_larger_torque_and_the_brake_by_the_smaller()
 
 def document_of_warm_up(ambient, *settings):
     settings = (f"surroundings.ambient={ambient}", *settings)
-    return warm_up_documents.document(
-        warm_up.warmed_up(warm_up.load(ROOT / "examples" / "warm_up.toml", settings, None))
-    )
+    return warm_up_documents.document(warmed_up(load(ROOT / "examples" / "warm_up.toml", settings, None)))
 
 
 def test_a_cold_start_stands_beside_that_of_a_full_bath():
@@ -344,7 +341,7 @@ def test_screws_of_a_table_have_both_where_one_is_starved(temperature, is_starve
     cases = rows_at(temperature, tmp_path).found
     runs = {name: run(each.case) for name, each in cases.items()}
     checks = {name: check.checked(name, each.case) for name, each in cases.items()}
-    for seen in (run_of_rows(runs), check_of_rows(list(checks.values()))):
+    for seen in (run_of_rows(runs), of_rows(list(checks.values()))):
         (table,) = seen.of_kind(Table)
         (columns,) = seen.of_kind(Columns)
         names = [row[0] for row in table.rows]
@@ -363,9 +360,9 @@ def test_screws_of_a_table_have_both_where_one_is_starved(temperature, is_starve
 
 def test_a_sweep_of_the_screws_of_a_table_has_both_for_all_where_one_is_starved(tmp_path):
     cases = rows_at("-10 degC", tmp_path).found
-    planned = sweep_rows.plans(cases, ["axial_load=1, 3 kN"], ["screw_torque"], None, False).found
+    planned = table.plans(cases, ["axial_load=1, 3 kN"], ["screw_torque"], None, False).found
     assert {plan.outputs for _, plan in planned.values()} == {("screw_torque", "flooded_torque")}
-    found, _ = sweep_rows.sweep(planned, None)
+    found, _ = table.sweep(planned, None)
     flooded = float(run(cases["A"].case).friction.flooded_torque)
     assert found["flooded_torque"].sel(screw="A").to_numpy()[1] == pytest.approx(flooded, rel=1e-9)
     assert np.isfinite(found["flooded_torque"].to_numpy()).all()
@@ -383,8 +380,8 @@ def test_a_sweep_that_heats_itself_is_judged_at_the_oil_as_warm_as_it_becomes():
 
 def test_self_heating_says_what_a_full_bath_would_end_in():
     settings = ["surroundings.ambient=-5 degC", "lubricant.temperature=-5 degC"]
-    cold = self_heating.self_heating(warm_up.load(ROOT / "examples" / "warm_up.toml", settings, None))
-    bath = self_heating.self_heating(warm_up.load(ROOT / "examples" / "warm_up.toml", [*settings, BATH], None))
+    cold = self_heating.self_heating(load(ROOT / "examples" / "warm_up.toml", settings, None))
+    bath = self_heating.self_heating(load(ROOT / "examples" / "warm_up.toml", [*settings, BATH], None))
     found = cold.numbers
     assert found.flooded_torque == pytest.approx(bath.numbers.screw_torque, rel=1e-6)
     assert found.flooded_torque_given == pytest.approx(bath.numbers.screw_torque_given, rel=1e-9)
@@ -454,7 +451,7 @@ def test_a_torque_without_load_says_that_the_nut_is_starved_of_oil():
     for temperature, starved in (("0 degC", True), ("60 degC", False)):
         case = case_with(temperature)
         idle = case.model(case.screw, case.lubricant, axial_load=0.0, screw_speed=60.0)
-        report = service.of_torque(case, service.Reading(float(idle.screw_torque), 60.0))
+        report = of_torque(case, Reading(float(idle.screw_torque), 60.0))
         record = record_of(service_documents.document(case, report))
         assert (record is not None) == starved
         if record is not None:  # the preload found is the one of the case, but for what is uncertain
@@ -507,9 +504,9 @@ def test_an_export_is_judged_without_load_too():
 @pytest.mark.slow
 def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up():
     case = case_file.build(tables_of_duty("-5 degC"), moves=True)
-    cold = warm_up.warmed_up(warm_up.load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], None))
+    cold = warmed_up(load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], None))
     of_warm_up = report_blocks.blocks(warm_up_sheet(cold), "warm_up")
-    for blocks in (report_blocks.blocks(duty_sheet(duty_of(case)), "duty"), of_warm_up):
+    for blocks in (report_blocks.blocks(sheet(duty(case)), "duty"), of_warm_up):
         assert "in a full bath of oil" in blocks[0].text
     steady = next(block for block in of_warm_up if getattr(block, "title", "") == "Steady state")
     assert steady.columns == ("", "value", "in a full bath of oil")

@@ -10,7 +10,7 @@ from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
 from ballscrew.axis.supports.makers_bearing import KnownBearing, SKFBearing
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema import case_schema as schema
+from ballscrew.cases.schema import case_schema
 from ballscrew.faces.web.bodies import case_of
 
 CASE = """
@@ -100,7 +100,7 @@ def test_inputs_are_in_si():
 
 
 def test_the_schema_has_the_fields_with_their_units():
-    defined = schema.json_schema()["$defs"]
+    defined = case_schema.json_schema()["$defs"]
     assert defined["Bearing"]["properties"]["preload"]["x-unit"] == "N"
     assert defined["Bearing"]["properties"]["law"]["enum"] == ["contacts", "skf", "palmgren", "known"]
     assert set(defined["Bearings"]["properties"]) == {"fixed", "floating", "second_fixed"}

@@ -12,8 +12,7 @@ import pytest
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.torque_cards import torque_card, torque_card_log
-from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate import document as documents
+from ballscrew.questions.validate import compute, document
 from ballscrew.questions.validate.sheet import sheet
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "torque_cards" / "synthetic_40x10.toml"
@@ -105,10 +104,10 @@ def test_what_a_card_leaves_open_is_said(changed):
 
 def test_a_card_against_the_model():
     """Uncalibrated first; the ratio is that to the mean of both directions, the band theirs and the instrument's."""
-    request = validation.request(cards=[EXAMPLE])
-    ((entries, notes),) = validation.evaluate(request)
+    request = compute.request(cards=[EXAMPLE])
+    ((entries, notes),) = compute.evaluate(request)
     assert notes == ["synthetic_40x10: synthetic: made by a model, says nothing of a screw"]
-    before, after = documents.documents(entries)
+    before, after = document.documents(entries)
     assert (before["calibration"], after["calibration"]) == (None, "rexroth-2006")
     assert before["card"]["made_by"] == "model"
     card = torque_card.read(EXAMPLE)
@@ -128,7 +127,7 @@ def test_a_card_against_the_model():
 
 def test_cards_go_with_no_set():
     with pytest.raises(InputError, match="--card: goes with no set"):
-        validation.request(["thk-jis"], cards=[EXAMPLE])
+        compute.request(["thk-jis"], cards=[EXAMPLE])
 
 
 def test_a_card_as_a_log_and_a_case(tmp_path):

@@ -10,7 +10,7 @@ import ballscrew as bs
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file, uncertain_inputs
-from ballscrew.cases.schema import case_schema as schema
+from ballscrew.cases.schema import case_schema
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
 from ballscrew.physics.components.materials import TEMPERATURE
@@ -190,7 +190,7 @@ def test_words():
 
 
 def test_the_schema_allows_them():
-    properties = schema.json_schema()["$defs"]["Screw"]["properties"]
+    properties = case_schema.json_schema()["$defs"]["Screw"]["properties"]
     number, text = properties["screw_conformity"]["anyOf"]
     assert number["exclusiveMinimum"] == 0.5
     for written in ("0.54 ± 0.01", "0.54 +/- 0.01", "0.54 +- 2 %", "uniform(0.52, 0.56)"):

@@ -3,7 +3,7 @@
 import pytest
 
 import ballscrew as bs
-from ballscrew.exports import hand_over as frame
+from ballscrew.exports import hand_over
 
 OIL = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
 
@@ -14,6 +14,6 @@ def handed_over():
 
     def handed(model, nut, oil=OIL, to="c", **asked):
         screw = bs.catalogue()["rexroth-16x5x3-4-double"].screw(nut=nut)
-        return frame.export_job(model, screw, oil, to, **asked)
+        return hand_over.export_job(model, screw, oil, to, **asked)
 
     return handed

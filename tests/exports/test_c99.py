@@ -17,8 +17,7 @@ from ballscrew.exports.programs import c99, c_source, interpreter, program_file
 from ballscrew.exports.targets import target
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.validity import NUT_REASONS
-from ballscrew.physics.solvers.line_slip import TOLERANCE as LINE_TOLERANCE
-from ballscrew.physics.solvers.line_slip import line_slip
+from ballscrew.physics.solvers.line_slip import TOLERANCE, line_slip
 
 from .compiled import COMPILER, STRICT, evaluated, library, names, needs_a_compiler
 from .presets import NUTS, presets_and_nuts
@@ -217,7 +216,7 @@ def test_every_law_interpreted_is_the_model(handed_over, slot):
         for n, where in finite.items():
             assert np.array_equal(np.isfinite(found[n]), where), (name, n)
         # its iteration takes another way where rounding differs, and ends at this residual, as within Python
-        rounding = LINE_TOLERANCE if law is line_slip else ROUNDING
+        rounding = TOLERANCE if law is line_slip else ROUNDING
         compare(*({n: v[finite[n]] for n, v in values.items()} for values in (found, wanted)), rounding)
 
 

@@ -9,8 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.exports import hand_over as frame
-from ballscrew.exports import requests, targets
+from ballscrew.exports import hand_over, requests, targets
 from ballscrew.exports.export import Export, worst_errors
 from ballscrew.exports.targets import TARGETS, target
 
@@ -79,7 +78,7 @@ def test_ranges_that_nobody_gave(handed):
     subject = handed.subject
     ranges = {
         one.name: one.range
-        for one in frame.export_job(
+        for one in hand_over.export_job(
             subject.model, subject.screw, subject.lubricant, "c", parameters=["friction.boundary_friction_coefficient"]
         ).inputs
     }

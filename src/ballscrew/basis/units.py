@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import Any
 
-from ballscrew.basis import pint_plugins as _pint_plugins
+from ballscrew.basis import pint_plugins
 from ballscrew.basis.errors import Fault, as_float
 from ballscrew.basis.quantities import Info, Quantity
 
@@ -90,7 +90,7 @@ _SPELLINGS = {
 @functools.cache
 def _pint() -> Any:
     """The library pint, imported without the optional libraries hidden by :mod:`ballscrew.basis.pint_plugins`."""
-    hidden = [name for name in _pint_plugins.hidden_from_pint if name not in sys.modules]
+    hidden = [name for name in pint_plugins.hidden_from_pint if name not in sys.modules]
     absent: Any = None  # importing it fails, as if it were not installed
     for name in hidden:
         sys.modules[name] = absent

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels import kernel
 from ballscrew.engine.evaluation.evaluation import Evaluation, rectangles
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
@@ -292,12 +292,12 @@ def test_large_work_is_compiled_and_what_is_compiled_is_used():
     middling = Plan.of(subject, None, random_points(100_000))
     assert Evaluation.of(middling).engine == "compiled"  # as it is compiled by now, for other points
     # as a new process, which has no kernel loaded
-    kernels._kernels.clear()
+    kernel._kernels.clear()
     assert Evaluation.of(middling).engine == "compiled"  # from disk
 
 
 def test_without_a_compiler(monkeypatch):
-    monkeypatch.setattr(kernels, "available", lambda: False)
+    monkeypatch.setattr(kernel, "available", lambda: False)
     plan = Plan.of(Configuration(MODELS["olaru2005"], SCREW, OIL), None, grid(3, 3, 3))
     assert Evaluation.of(plan).engine == "numpy"
     with pytest.raises(bs.InputError, match=r'sweep.engine: .* · pip install "ballscrew\[fast\]"'):

@@ -16,7 +16,7 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels import kernel
 from ballscrew.compiler.tracing.written import as_document, can_be_written, from_document
 from ballscrew.engine.evaluation import structure_kernels
 from ballscrew.engine.evaluation.evaluation import Evaluation
@@ -185,8 +185,8 @@ def compiled_count(monkeypatch):
     """What is compiled from now on."""
     found = []
     # counts what is compiled
-    whole = kernels._compile
-    monkeypatch.setattr(kernels, "_compile", lambda *how: found.append(how) or whole(*how))
+    whole = kernel._compile
+    monkeypatch.setattr(kernel, "_compile", lambda *how: found.append(how) or whole(*how))
     return found
 
 
@@ -238,7 +238,7 @@ def test_where_a_function_was_replaced_nothing_that_was_kept_counts(monkeypatch)
 
 
 def test_without_a_compiler_there_is_none(monkeypatch):
-    monkeypatch.setattr(kernels, "available", lambda: False)
+    monkeypatch.setattr(kernel, "available", lambda: False)
     subject = case_of("single", "olaru2005")
     assert Structure(subject, ["screw_torque"]).ready(10**9) is None
     assert bs.evaluator(subject.model, subject.screw, subject.lubricant).engine == "numpy"

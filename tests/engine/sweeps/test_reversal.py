@@ -11,8 +11,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.sweeps.reversal import PARTS, dataset_of
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from ballscrew.physics.moving_balls.reversal import LOSSES, MECHANISMS
-from ballscrew.physics.moving_balls.reversal import reversal as computed
+from ballscrew.physics.moving_balls.reversal import LOSSES, MECHANISMS, reversal
 from support.reversals import closed_form
 
 REFERENCE = bs.FrictionModel.reference()
@@ -25,7 +24,7 @@ def found():
 
 
 def test_the_numbers_are_those_of_the_physics(found):
-    alone = computed(REFERENCE, SCREW, OIL, **POINT, travel=2e-5)
+    alone = reversal(REFERENCE, SCREW, OIL, **POINT, travel=2e-5)
     assert np.array_equal(found["screw_angle"], alone.screw_angle)
     for name in ("travel", "screw_torque"):
         assert np.array_equal(found[name], getattr(alone, name))

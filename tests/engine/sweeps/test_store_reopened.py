@@ -13,10 +13,10 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels import kernel
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.sweeps import store as stores
+from ballscrew.engine.sweeps import store
 from ballscrew.engine.sweeps.store import Store
 from ballscrew.engine.sweeps.store_check import count_false
 from support.stores import AXES, MODEL, SMALL, blocks_of, files, started, stop_at, times
@@ -195,7 +195,7 @@ def test_the_engine_stays_what_it_was(swept, tmp_path, monkeypatch):
         assert chosen == [engine]
         swept(tmp_path / f"{engine} whole.zarr", engine=engine)
         assert files(path) == files(tmp_path / f"{engine} whole.zarr")
-    monkeypatch.setattr(kernels, "available", lambda: False)
+    monkeypatch.setattr(kernel, "available", lambda: False)
     with pytest.raises(bs.InputError, match="was begun with the engine compiled") as caught:
         swept(tmp_path / "compiled.zarr")
     assert 'pip install "ballscrew[fast]"' in str(caught.value)
@@ -208,7 +208,7 @@ def test_what_is_varied_alone_is_not_written(swept, tmp_path):
 
 
 def test_without_zarr_the_extra_is_named(swept, tmp_path, monkeypatch):
-    monkeypatch.setattr(stores.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(store.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(bs.InputError, match=r'sweep\.to: needs zarr .* pip install "ballscrew\[data\]"'):
         swept(tmp_path / "map.zarr")
 

@@ -14,7 +14,7 @@ from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, calibration, calibrations, with_parameters
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 pytestmark = pytest.mark.slow
 
@@ -70,7 +70,7 @@ def test_the_stored_covariance_is_that_of_the_linear_model(linear):
 
 
 def test_the_stored_numbers_belong_to_the_rows_shipped(script):
-    assert STORED.data == {SETS[name].file: validation.fingerprint(SETS[name].file) for name in script.FITTED}
+    assert STORED.data == {SETS[name].file: compute.fingerprint(SETS[name].file) for name in script.FITTED}
     assert STORED.objective == script.OBJECTIVE
 
 

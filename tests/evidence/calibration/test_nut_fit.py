@@ -9,9 +9,8 @@ from scipy.stats import binom
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.evidence.calibration import baselines
+from ballscrew.evidence.calibration import baselines, next_test
 from ballscrew.evidence.calibration import fit as calibration
-from ballscrew.evidence.calibration import next_test as next_tests
 from ballscrew.evidence.calibration.response import Response
 from support.strategies import MODELS
 from support.synthetic_logs import OIL
@@ -223,8 +222,8 @@ def fit_from_elsewhere(data):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SIGNED)
 def test_exact_torques_return_the_truth_whatever_the_signs_of_the_loads(name, quick_baselines, monkeypatch):
-    monkeypatch.setattr(next_tests, "SPEED_COUNT", 2)
-    monkeypatch.setattr(next_tests, "LOAD_COUNT", 3)
+    monkeypatch.setattr(next_test, "SPEED_COUNT", 2)
+    monkeypatch.setattr(next_test, "LOAD_COUNT", 3)
     found, values = fit_from_elsewhere(signed_log(SIGNED[name]))
     assert values == pytest.approx((0.12, 1113.0), rel=1e-3)
     assert found.rows.convention.description == "torque on the shaft, load and speed with their signs"

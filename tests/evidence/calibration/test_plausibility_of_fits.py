@@ -98,12 +98,12 @@ def test_a_constant_torque_is_at_most_the_share_that_seals_have(logs):
     from importlib import resources
 
     from ballscrew.evidence.validation.sets import SETS
-    from ballscrew.questions.validate import compute as validation
+    from ballscrew.questions.validate import compute
 
     seals = tomllib.loads((resources.files("ballscrew") / "data" / "seals.toml").read_text(encoding="utf-8"))["seals"]
     shares = []
     for name in ("rexroth-double-nut", "rexroth-single-nut"):
-        for row in validation.shipped_rows(SETS[name]):
+        for row in compute.shipped_rows(SETS[name]):
             d0, lead = row["nominal_diameter"], row["lead"]
             torques = [
                 one["torque"]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew import olaru2005 as paper
+from ballscrew import olaru2005
 
 MODULUS = 2.07e11
 STEEL = bs.Material(young_modulus=MODULUS, poisson_ratio=0.3)
@@ -59,15 +59,15 @@ def of_package(model, c):
 @pytest.mark.parametrize(
     ("model", "torques", "literal"),
     [
-        (bs.FrictionModel.olaru2005(), paper.printed, {}),
-        (bs.FrictionModel.olaru2005(literal_film_parameter=True), paper.printed, {"literal_lambda": True}),
-        (bs.FrictionModel.corrected(), paper.corrected, {}),
+        (bs.FrictionModel.olaru2005(), olaru2005.printed, {}),
+        (bs.FrictionModel.olaru2005(literal_film_parameter=True), olaru2005.printed, {"literal_lambda": True}),
+        (bs.FrictionModel.corrected(), olaru2005.corrected, {}),
     ],
     ids=["as printed", "to the letter", "corrected"],
 )
 def test_presets_are_the_paper(model, torques, literal):
     for seed in range(SCREWS):
-        of_paper = torques(paper.Case(**case(seed)), **literal)
+        of_paper = torques(olaru2005.Case(**case(seed)), **literal)
         result = of_package(model, case(seed))
         of_preset = (result.screw_torque, result.nut_torque, result.ideal_torque, result.efficiency)
         np.testing.assert_allclose(of_preset, of_paper, rtol=RELATIVE, err_msg=str(seed))
@@ -76,9 +76,9 @@ def test_presets_are_the_paper(model, torques, literal):
 def test_it_runs_on_arrays():
     c = case(0)
     loads = c["F"] * np.array([0.5, 1.0, 2.0])
-    for torques in (paper.printed, paper.corrected):
-        together = torques(paper.Case(**{**c, "F": loads})).M_S
-        one_by_one = [torques(paper.Case(**{**c, "F": load})).M_S for load in loads]
+    for torques in (olaru2005.printed, olaru2005.corrected):
+        together = torques(olaru2005.Case(**{**c, "F": loads})).M_S
+        one_by_one = [torques(olaru2005.Case(**{**c, "F": load})).M_S for load in loads]
         np.testing.assert_allclose(together, one_by_one, rtol=1e-14)
 
 
@@ -87,14 +87,14 @@ def test_printed_sliding_forces_are_in_equilibrium():
     draw = np.random.default_rng(7)
     M, M_B, F_Rs, F_Rn, F_B = draw.uniform(0.1, 1.0, 5)
     d_w, d_m, alpha = 0.3, 2.0, 0.8
-    slides = [force(M, M_B, F_Rs, F_Rn, F_B, d_w, d_m, alpha) for force in (paper.F_Ss, paper.F_Sn)]
-    pressures = paper.F_Psb(F_Rs, d_w, d_m, alpha), paper.F_Pnb(F_Rn, d_w, d_m, alpha)
-    assert paper.sum_of_forces(*slides, F_Rs, F_Rn, *pressures, F_B) == pytest.approx(0, abs=1e-14)
-    assert paper.sum_of_moments(*slides, F_Rs, F_Rn, M, M_B, d_w) == pytest.approx(0, abs=1e-14)
+    slides = [force(M, M_B, F_Rs, F_Rn, F_B, d_w, d_m, alpha) for force in (olaru2005.F_Ss, olaru2005.F_Sn)]
+    pressures = olaru2005.F_Psb(F_Rs, d_w, d_m, alpha), olaru2005.F_Pnb(F_Rn, d_w, d_m, alpha)
+    assert olaru2005.sum_of_forces(*slides, F_Rs, F_Rn, *pressures, F_B) == pytest.approx(0, abs=1e-14)
+    assert olaru2005.sum_of_moments(*slides, F_Rs, F_Rn, M, M_B, d_w) == pytest.approx(0, abs=1e-14)
 
 
 def test_every_equation_is_there_in_the_order_of_the_paper():
-    source = inspect.getsource(paper)
+    source = inspect.getsource(olaru2005)
     heads = [ast.get_docstring(node) or "" for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)]
     numbers = [
         int(number)
@@ -107,7 +107,7 @@ def test_every_equation_is_there_in_the_order_of_the_paper():
 
 
 def test_it_needs_numpy_alone():
-    tree = ast.parse(inspect.getsource(paper))
+    tree = ast.parse(inspect.getsource(olaru2005))
     modules = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
     modules |= {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     assert modules == {"__future__", "typing", "numpy"}

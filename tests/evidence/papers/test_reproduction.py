@@ -10,24 +10,21 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.evidence.papers import olaru2005 as paper
+from ballscrew.evidence.papers import olaru2005
 from ballscrew.evidence.papers.olaru2005 import case, verdicts
 from ballscrew.evidence.papers.olaru2005.claims import judged
 from ballscrew.evidence.papers.olaru2005.observations import observe
-from ballscrew.questions.reproduce import ball_figure as ball
-from ballscrew.questions.reproduce import figure as figures
-from ballscrew.questions.reproduce import preloaded_nut as nuts
-from ballscrew.questions.reproduce import reproduction
+from ballscrew.questions.reproduce import ball_figure, figure, preloaded_nut, reproduction
 from ballscrew.questions.shared.charts import Plot
 from support.pictures import drawn, size
 
-HOLDS, FAILS, OPEN = paper.Verdict.HOLDS, paper.Verdict.FAILS, paper.Verdict.OPEN
-NAMES = [plot.name for plot in (*ball.PLOTS, *figures.PLOTS)]
+HOLDS, FAILS, OPEN = olaru2005.Verdict.HOLDS, olaru2005.Verdict.FAILS, olaru2005.Verdict.OPEN
+NAMES = [plot.name for plot in (*ball_figure.PLOTS, *figure.PLOTS)]
 
 
 @pytest.fixture(scope="module")
 def observed():
-    return {name: observe(model) for name, model in paper.models().items()}
+    return {name: observe(model) for name, model in olaru2005.models().items()}
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +34,7 @@ def claims(observed):
 
 @pytest.fixture(scope="module")
 def checks():
-    return {check.reading.name: check for check in paper.closure_checks()}
+    return {check.reading.name: check for check in olaru2005.closure_checks()}
 
 
 @pytest.fixture(scope="module")
@@ -62,8 +59,8 @@ def test_speed_of_least_torque(observed):
 def test_minimum_is_a_minimum(observed):
     for name in ("olaru2005", "corrected"):
         speed = observed[name].minimum.speed
-        torque = paper.models()[name](
-            paper.SCREW, paper.OIL, axial_load=4000.0, screw_speed=speed * np.array([0.99, 1.0, 1.01])
+        torque = olaru2005.models()[name](
+            olaru2005.SCREW, olaru2005.OIL, axial_load=4000.0, screw_speed=speed * np.array([0.99, 1.0, 1.01])
         ).screw_torque
         assert torque[1] <= min(torque[0], torque[2])
 
@@ -96,8 +93,10 @@ def test_film_parameter_where_the_film_takes_over(observed):
 def test_skid_limit_is_the_edge_of_validity(observed):
     printed = observed["olaru2005"].load.skid_limit
     assert 0.1 < printed < 0.5
-    load = printed * 56 * np.sin(paper.SCREW.contact_angle) * np.array([0.999, 1.001])
-    result = paper.models()["olaru2005"](paper.SCREW, paper.OIL, axial_load=load, screw_speed=case.SCREW_SPEED)
+    load = printed * 56 * np.sin(olaru2005.SCREW.contact_angle) * np.array([0.999, 1.001])
+    result = olaru2005.models()["olaru2005"](
+        olaru2005.SCREW, olaru2005.OIL, axial_load=load, screw_speed=case.SCREW_SPEED
+    )
     assert list(result.validity["skid"]) == [False, True]
 
 
@@ -176,7 +175,7 @@ def test_short_table(claims):
 
 
 def test_curves_cover_the_ranges_of_the_paper():
-    data = paper.curves()
+    data = olaru2005.curves()
     assert list(data["model"].to_numpy()) == ["olaru2005", "corrected"]
     assert float(data["screw_speed"].max()) / case.RPM == pytest.approx(1000)
     assert (float(data["axial_load"].min()), float(data["axial_load"].max())) == (0, 4000)
@@ -223,7 +222,9 @@ def test_numbers_of_a_figure(written):
         rows = list(csv.DictReader(file))
     assert len(rows) == 1001
     row = rows[600]
-    result = paper.models()["olaru2005"](paper.SCREW, paper.OIL, axial_load=4000.0, screw_speed=600 * case.RPM)
+    result = olaru2005.models()["olaru2005"](
+        olaru2005.SCREW, olaru2005.OIL, axial_load=4000.0, screw_speed=600 * case.RPM
+    )
     assert float(row["screw speed (rpm)"]) == 600
     assert float(row["friction torque on screw, olaru2005 (N m)"]) == pytest.approx(result.screw_torque, rel=1e-9)
 
@@ -231,7 +232,7 @@ def test_numbers_of_a_figure(written):
 @pytest.mark.slow
 def test_data_can_be_read_back(written):
     with xr.open_dataset(written[0] / "data.nc", engine="h5netcdf") as data:
-        xr.testing.assert_allclose(data.load(), paper.curves())
+        xr.testing.assert_allclose(data.load(), olaru2005.curves())
 
 
 @pytest.mark.slow
@@ -252,8 +253,8 @@ def test_words(written):
 @pytest.mark.slow
 def test_same_bytes_on_every_run(monkeypatch, written, tmp_path):
     """A second time, with one figure of each kind."""
-    monkeypatch.setattr(ball, "PLOTS", ball.PLOTS[:1])
-    monkeypatch.setattr(figures, "PLOTS", figures.PLOTS[4:6])
+    monkeypatch.setattr(ball_figure, "PLOTS", ball_figure.PLOTS[:1])
+    monkeypatch.setattr(figure, "PLOTS", figure.PLOTS[4:6])
     again = reproduction.reproduce_olaru2005(tmp_path).files
     assert len(again) == 4 * 3 + 4
     for path in again:
@@ -269,8 +270,8 @@ def test_nothing_half_written(monkeypatch, tmp_path, interruption, existing):
     def broken(data):
         raise interruption
 
-    monkeypatch.setattr(ball, "PLOTS", ())
-    monkeypatch.setattr(figures, "PLOTS", (figures.PLOTS[1], Plot("broken", broken, dict)))
+    monkeypatch.setattr(ball_figure, "PLOTS", ())
+    monkeypatch.setattr(figure, "PLOTS", (figure.PLOTS[1], Plot("broken", broken, dict)))
     out = tmp_path / "out"
     if existing:
         out.mkdir()
@@ -287,7 +288,7 @@ def no_work(*args):
 
 
 def test_folder_that_cannot_be_written(monkeypatch, tmp_path):
-    monkeypatch.setattr(paper, "curves", no_work)
+    monkeypatch.setattr(olaru2005, "curves", no_work)
     occupied = tmp_path / "file"
     occupied.write_text("mine")
     for out in (occupied, occupied / "below"):
@@ -303,14 +304,14 @@ def test_no_permission(monkeypatch, tmp_path):
     def refuse(*args, **kwargs):
         raise PermissionError(13, "Permission denied", str(tmp_path))
 
-    monkeypatch.setattr(paper, "curves", no_work)
+    monkeypatch.setattr(olaru2005, "curves", no_work)
     monkeypatch.setattr(reproduction.tempfile, "mkdtemp", refuse)
     with pytest.raises(bs.InputError, match="Permission denied"):
         reproduction.reproduce_olaru2005(tmp_path / "out")
 
 
 def test_netcdf_libraries_missing(monkeypatch, tmp_path):
-    monkeypatch.setattr(paper, "curves", no_work)
+    monkeypatch.setattr(olaru2005, "curves", no_work)
     monkeypatch.setattr(reproduction.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(bs.InputError, match=r'pip install "ballscrew\[data\]"'):
         reproduction.reproduce_olaru2005(tmp_path / "out")
@@ -334,7 +335,7 @@ def test_a_folder_in_the_place_of_a_file(monkeypatch, tmp_path):
 
 @pytest.fixture(scope="module")
 def nut():
-    return nuts.preloaded_nut()
+    return preloaded_nut.preloaded_nut()
 
 
 @pytest.mark.slow
@@ -386,10 +387,10 @@ def test_counts_are_those_of_the_verdicts(claims):
 
 
 def test_repairs_lead_from_the_printed_model_to_the_corrected_one():
-    steps = paper.repairs()
+    steps = olaru2005.repairs()
     point = {"axial_load": case.AXIAL_LOAD, "screw_speed": case.SCREW_SPEED}
-    printed = bs.FrictionModel.olaru2005()(paper.SCREW, paper.OIL, **point)
-    corrected = bs.FrictionModel.corrected()(paper.SCREW, paper.OIL, **point)
+    printed = bs.FrictionModel.olaru2005()(olaru2005.SCREW, olaru2005.OIL, **point)
+    corrected = bs.FrictionModel.corrected()(olaru2005.SCREW, olaru2005.OIL, **point)
     assert steps[0].torque_so_far == steps[0].torque_alone == printed.screw_torque
     assert steps[-1].torque_so_far == corrected.screw_torque
     assert steps[-1].efficiency_so_far == corrected.efficiency

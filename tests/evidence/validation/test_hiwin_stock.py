@@ -14,7 +14,7 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 STOCK = SETS["hiwin-stock"]
 REFERENCE = FrictionModel.reference()
@@ -23,7 +23,7 @@ RPM = math.pi / 30
 
 @pytest.fixture(scope="module")
 def rows():
-    return {values["name"]: values for values in validation.shipped_rows(STOCK)}
+    return {values["name"]: values for values in compute.shipped_rows(STOCK)}
 
 
 def point(values, model=REFERENCE, conditions=STOCK.conditions):
@@ -73,7 +73,7 @@ def test_circuits_are_turns_times_circuits(tmp_path):
     lines = [f"R{i},single,1,none,20,20.6,5,3.175,{text},9336,16985,0.0,0.1" for i, text in enumerate(written)]
     path = tmp_path / "own.csv"
     path.write_text("\n".join([head, *lines]) + "\n", encoding="utf-8")
-    found, notes = made(read(path, validation.columns_of(STOCK)), lambda row: row.values["turns"])
+    found, notes = made(read(path, compute.columns_of(STOCK)), lambda row: row.values["turns"])
     assert notes == []
     assert found == pytest.approx([*(turns * circuits for turns, circuits in pairs), 3, 2.5], rel=1e-12)
 

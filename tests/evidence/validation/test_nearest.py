@@ -13,7 +13,7 @@ from ballscrew.evidence.validation.nearest import _ratios, near_rows
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 from support.drive_case import drive_case
 
 DRIVE = bs.catalogue()["rexroth-40x10x6-6-double"]
@@ -25,7 +25,7 @@ def test_the_stored_ratios_are_those_of_the_model(column):
     model = FrictionModel.reference()
     model = model if column == "uncalibrated" else calibrated(model, calibrations()[column])
     for name, shipped in (("rexroth-double-nut", 3), ("rexroth-single-nut", 5)):
-        values = validation.shipped_rows(SETS[name])[shipped]
+        values = compute.shipped_rows(SETS[name])[shipped]
         stored = {row["row"]: float(row[column]) for row in _ratios() if row["set"] == name}
         for point in SETS[name].evaluate(model, values, Conditions()):
             assert stored[point.name] == pytest.approx(point.ratio, abs=1e-4)

@@ -8,14 +8,14 @@ import pytest
 import ballscrew as bs
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 BEARINGS = SETS["support-bearings"]
 
 
 @pytest.fixture(scope="module")
 def points():
-    rows = validation.shipped_rows(BEARINGS)
+    rows = compute.shipped_rows(BEARINGS)
     return [BEARINGS.evaluate(FrictionModel.reference(), values, BEARINGS.conditions)[0] for values in rows]
 
 

@@ -9,7 +9,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 HEADINGS = (
     "model,family,d0_mm,lead_mm,ball_pcd_mm,root_mm,rows,turns,Ca_kN,C0a_kN,K_N_um,pdf_page,line,ball_mm_inferred"
@@ -24,8 +24,8 @@ ROWS = (
 
 
 def entry_of(name, **options):
-    request = validation.request([name], **options)
-    entries, _ = validation.entries_of(SETS[name], [(request.model, None)], request)
+    request = compute.request([name], **options)
+    entries, _ = compute.entries_of(SETS[name], [(request.model, None)], request)
     return entries[0]
 
 

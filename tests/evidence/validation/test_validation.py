@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from ballscrew.basis.errors import InputError
-from ballscrew.evidence.validation import entries as base
+from ballscrew.evidence.validation import entries
 from ballscrew.evidence.validation.entries import Band, Conditions, Entry, Point, trends
 from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
@@ -20,7 +20,7 @@ from ballscrew.physics.friction.calibrations import calibrated, calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.checks import ratings_of
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 from support.validation_sets import every_set
 
 DATA = Path(__file__).parents[2] / "data"
@@ -56,7 +56,7 @@ OF_OTHER_SOURCES = ("nut_outer_diameter", "nut_outer_diameter_source", "seal_tor
 
 @pytest.mark.parametrize("name", ["rexroth-double-nut", "rexroth-single-nut", "hiwin-ratings"])
 def test_rows_shipped_and_the_catalogue_describe_the_same_screws(name):
-    rows = [screw_of(values) for values in validation.shipped_rows(SETS[name])]
+    rows = [screw_of(values) for values in compute.shipped_rows(SETS[name])]
     suffix = {"rexroth-double-nut": "-double", "rexroth-single-nut": "-single"}.get(name, "")
     prefix = name.partition("-")[0]
     for row in rows:
@@ -72,10 +72,10 @@ def test_rows_shipped_and_the_catalogue_describe_the_same_screws(name):
 
 def test_every_set_has_columns_for_what_it_requires():
     for data in SETS.values():
-        columns = {column.name: column for column in validation.columns_of(data)}
+        columns = {column.name: column for column in compute.columns_of(data)}
         assert set(data.required) <= set(columns)
         assert all(columns[name].required for name in data.required)
-        assert validation.shipped_rows(data)
+        assert compute.shipped_rows(data)
 
 
 # -- what is computed -----------------------------------------------------------------------------
@@ -146,7 +146,7 @@ def test_two_per_cent_rows_are_in_no_mean(found):
     assert len(entry.upper_limits) == 18
     assert all(point.name.endswith("at 5 %") for point in entry.points)
     without = [
-        point for values in validation.shipped_rows(entry.data)
+        point for values in compute.shipped_rows(entry.data)
         for point in entry.data.evaluate(
             entry.model, {k: v for k, v in values.items() if "2pct" not in k}, Conditions()
         )
@@ -214,7 +214,7 @@ def test_alternatives_stand_with_and_without_wipers(found):
     values = {point.name: point.value for point in entry.points}
     name = "32 mm, double, VG 100 at 25 °C"
     assert values[f"{name}, wipers"] == pytest.approx(values[name] + 0.25, rel=1e-12)
-    row = validation.shipped_rows(entry.data)[0]
+    row = compute.shipped_rows(entry.data)[0]
     bare = {column: value for column, value in row.items() if column != "seal_torque"}
     assert len(entry.data.evaluate(entry.model, bare, Conditions())) == 1
 
@@ -223,19 +223,19 @@ def test_alternatives_that_a_model_cannot_do_are_left_out():
     data = SETS["xjtu"]
     nuts = [
         values["nut"]
-        for values in validation.shipped_rows(data)
+        for values in compute.shipped_rows(data)
         for _ in data.evaluate(FrictionModel.olaru2005(), values, Conditions())
     ]
     assert set(nuts) == {"double"}
 
 
 def test_alternatives_have_the_rating_that_is_stated():
-    for values in validation.shipped_rows(SETS["xjtu"]):
+    for values in compute.shipped_rows(SETS["xjtu"]):
         assert ratings_of(screw_of(values)).dynamic == pytest.approx(16400, rel=0.08)
 
 
 def test_an_unknown_nut_is_refused():
-    values = {**validation.shipped_rows(SETS["xjtu"])[0], "nut": "tripple"}
+    values = {**compute.shipped_rows(SETS["xjtu"])[0], "nut": "tripple"}
     with pytest.raises(InputError, match=r"row\.nut: unknown kind of preloaded nut"):
         SETS["xjtu"].evaluate(FrictionModel.reference(), values, Conditions())
 
@@ -293,7 +293,7 @@ def test_trends_find_the_exponent_and_its_doubt():
 
 
 def good():
-    return dict(validation.shipped_rows(SETS["rexroth-double-nut"])[0])
+    return dict(compute.shipped_rows(SETS["rexroth-double-nut"])[0])
 
 
 def test_a_row_has_conditions_of_its_own():
@@ -325,12 +325,12 @@ def test_nonsense_is_refused(changes, where):
 def test_descriptors_of_all_points_are_known(found):
     for entry in found.values():
         for point in entry.points:
-            assert set(point.descriptors) <= set(base.DESCRIPTORS)
+            assert set(point.descriptors) <= set(entries.DESCRIPTORS)
             assert set(entry.data.axes) <= set(point.descriptors)
 
 
 def test_calibrated_entries_are_the_calibrated_model(found):
     model = calibrated(FrictionModel.reference(), calibration("rexroth-2006"))
     entry = found["thk-jis", "rexroth-2006"]
-    values = validation.shipped_rows(entry.data)[0]
+    values = compute.shipped_rows(entry.data)[0]
     assert entry.points[0].value == entry.data.evaluate(model, values, Conditions())[0].value

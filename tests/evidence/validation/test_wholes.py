@@ -11,7 +11,7 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 
 REFERENCE = FrictionModel.reference()
 WHOLES = {name: data for name, data in SETS.items() if data.bound and data.alternatives}
@@ -19,7 +19,7 @@ WHOLES = {name: data for name, data in SETS.items() if data.bound and data.alter
 
 def entry(name):
     data = WHOLES[name]
-    rows = validation.shipped_rows(data)
+    rows = compute.shipped_rows(data)
     points = [point for values in rows for point in data.evaluate(REFERENCE, values, data.conditions)]
     return Entry(data=data, model=REFERENCE, calibration=None, points=points)
 
@@ -45,7 +45,7 @@ def test_published_numbers(axis, actuator):
 
 def test_a_row_by_hand(axis):
     """A double nut on 8x2.5 with 136 N: its torque over that of the axis, and how both grow from 120 rpm on."""
-    values = next(one for one in validation.shipped_rows(axis.data) if one["nut"] == "double")
+    values = next(one for one in compute.shipped_rows(axis.data) if one["nut"] == "double")
     screw = screw_of(values).screw(nut=DoubleNut(preload=136.0))
     oil = Lubricant.from_grade("ISO VG 32", 313.15)
 
@@ -61,9 +61,9 @@ def test_a_row_by_hand(axis):
 def test_what_is_assumed_of_the_screws():
     """Preloads are 5 % of the rating by geometry, in whole newtons; balls of 3.175 mm have the root that is printed."""
     for data in WHOLES.values():
-        for values in validation.shipped_rows(data):
+        for values in compute.shipped_rows(data):
             assert abs(values["preload"] - 0.05 * ratings_of(screw_of(values)).dynamic) <= 0.5
-    row = screw_of(validation.shipped_rows(WHOLES["thk-kr4620a"])[0])
+    row = screw_of(compute.shipped_rows(WHOLES["thk-kr4620a"])[0])
     # 12.5 mm, to a digit
     assert abs(row.groove_root_diameter - row.root_diameter) < 0.05e-3
 
@@ -90,7 +90,7 @@ def test_the_part_is_less_than_the_whole(axis, actuator):
 def test_stocked_nuts_of_an_unknown_preload_have_an_upper_bound():
     """As printed; each row at a medium preload over the greatest drag of its range."""
     data = SETS["thk-stock"]
-    rows = {values["name"].partition(" ")[0]: values for values in validation.shipped_rows(data)}
+    rows = {values["name"].partition(" ")[0]: values for values in compute.shipped_rows(data)}
     assert len(rows) == 19
     assert sum(values["spacer_balls"] == "yes" for values in rows.values()) == 10
     (point,) = data.evaluate(REFERENCE, rows["BNK1510-5.6"], data.conditions)

@@ -11,7 +11,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.sheet import Columns
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.sizing.installation import Ends
-from ballscrew.questions.axis.compute import chain_of
+from ballscrew.questions.axis.answer import chain_of
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.duty.verdicts import warnings

@@ -204,20 +204,19 @@ def test_forbidden_files(example, monkeypatch):
 
 def test_a_full_disk_leaves_the_old_file(tmp_path, example, monkeypatch):
     """What was there stays there, and nothing half-written is left beside it."""
-    from ballscrew.questions.sweep import compute as sweeps
-    from ballscrew.questions.sweep import table as sweep_files
+    from ballscrew.questions.sweep import compute, table
 
     target = tmp_path / "map.csv"
     target.write_text("old", encoding="utf-8")
     case = case_file.load(Path(example))
-    plan = sweeps.plan(case, [], [], target)
+    plan = compute.plan(case, [], [], target)
 
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(sweep_files, "write_csv", full)
+    monkeypatch.setattr(table, "write_csv", full)
     with pytest.raises(InputError, match="No space left on device"):
-        sweep_files.write(sweeps.sweep(case, plan), plan, target)
+        table.write(compute.sweep(case, plan), plan, target)
     assert target.read_text(encoding="utf-8") == "old"
     assert list(tmp_path.iterdir()) == [target]
 

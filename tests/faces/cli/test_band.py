@@ -16,12 +16,11 @@ from ballscrew.engine.uncertainty.bands import Interval, OutputBand
 from ballscrew.faces.sheets import pictures, report_blocks
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.physics.laws.rolling import biboulet_houpert_rolling as reference_rolling
+from ballscrew.physics.laws.rolling import biboulet_houpert_rolling
 from ballscrew.physics.laws.traits import LawTraits, traits_of
-from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import document as documents
+from ballscrew.questions.band import compute, document
 from ballscrew.questions.band.sheet import sheet
-from ballscrew.questions.compare import compute as comparison
+from ballscrew.questions.compare.compute import candidates
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.report_blocks import Paragraph
 from support.pictures import words_of
@@ -84,7 +83,7 @@ def output_band(value, both, inputs, laws, median=1.0):
     ],
 )
 def test_where_the_laws_pull_the_band_one_line_says_which_number_to_use(torque, ids, used):
-    found = documents.beside_laws(torque, quantities_of(FrictionResult)["screw_torque"])
+    found = document.beside_laws(torque, quantities_of(FrictionResult)["screw_torque"])
     assert [record.id for record in found] == ids
     assert [record.value for record in found] == used
     assert all(f"{value:.3g} N m" in record.text for value, record in zip(used, found, strict=True))
@@ -115,7 +114,7 @@ def test_run_and_report_say_so(example, ballscrew):
     feed = example.with_name("feed_drive.toml")
     process = ballscrew("run", feed, "--band", "--samples", "256")
     case = case_file.load(feed)
-    report = band.band(case, band.BandOptions(samples=256))
+    report = compute.band(case, compute.BandOptions(samples=256))
     torque = report.band["screw_torque"]
     assert torque.both.high < torque.parameters.high
     largest = to_digits(torque.parameters.high, toward=1)
@@ -220,10 +219,10 @@ def test_pictures(kind, drive, ballscrew, tmp_path):
 )
 def test_what_a_picture_says(settings, axis, drive):
     case = case_file.load(drive, settings)
-    options = band.BandOptions(samples=64)
+    options = compute.BandOptions(samples=64)
     with charts.house_style():
-        report = band.band(case, options)
-        figure = pictures.picture(sheet(case, report, band.curve(case, report, options)))
+        report = compute.band(case, options)
+        figure = pictures.picture(sheet(case, report, compute.curve(case, report, options)))
         figure.draw_without_rendering()
     left, right = figure.axes
     assert left.get_xlabel() == axis
@@ -257,31 +256,31 @@ ENSEMBLE = {
 
 
 def a_new_law(conditions):
-    return 2 * reference_rolling(conditions)
+    return 2 * biboulet_houpert_rolling(conditions)
 
 
 def test_a_name_for_a_law_moves_no_default_band(drive, monkeypatch):
     """The table of names is no ensemble: a law is an alternative where it says so itself."""
     case = case_file.load(drive)
-    before = band.alternatives(case)
+    before = compute.alternatives(case)
     monkeypatch.setitem(LAWS["rolling"], "new", a_new_law)
-    assert ("rolling", "new") in {(law.slot, law.name) for law in comparison.candidates(case)[1]}
-    assert [(law.slot, law.name) for law in band.alternatives(case)] == [(law.slot, law.name) for law in before]
+    assert ("rolling", "new") in {(law.slot, law.name) for law in candidates(case)[1]}
+    assert [(law.slot, law.name) for law in compute.alternatives(case)] == [(law.slot, law.name) for law in before]
     monkeypatch.setattr(a_new_law, "traits", LawTraits(alternative=True), raising=False)
-    assert ("rolling", "new") in {(law.slot, law.name) for law in band.alternatives(case)}
+    assert ("rolling", "new") in {(law.slot, law.name) for law in compute.alternatives(case)}
 
 
 def test_laws_that_only_leave_something_out_are_no_alternatives(drive):
     case = case_file.load(drive)
-    names = {(law.slot, law.name) for law in band.alternatives(case)}
+    names = {(law.slot, law.name) for law in compute.alternatives(case)}
     assert names == ENSEMBLE
-    everything = {(law.slot, law.name) for law in comparison.candidates(case)[1]}
+    everything = {(law.slot, law.name) for law in candidates(case)[1]}
     assert everything >= {("slip", "curvature"), ("frame", "bearing")}
     for named in LAWS.values():
         for name, law in named.items():
             assert bool(traits_of(law).excluded) != traits_of(law).alternative, name
     with_the_papers = case_file.load(drive, ["model.slip=curvature"])
-    assert ("slip", "ellipse") in {(law.slot, law.name) for law in band.alternatives(with_the_papers)}
+    assert ("slip", "ellipse") in {(law.slot, law.name) for law in compute.alternatives(with_the_papers)}
 
 
 def test_a_calibration_is_drawn_with_its_correlation(drive):
@@ -289,7 +288,7 @@ def test_a_calibration_is_drawn_with_its_correlation(drive):
     joint = joint_of(case, all_of(case))
     assert joint is not None
     assert joint.covariance[0, 1] < 0
-    slots = {law.slot for law in band.alternatives(case)}
+    slots = {law.slot for law in compute.alternatives(case)}
     assert "rolling" in slots
     assert not slots & {"friction", "ball_force"}
     plain = case_file.load(drive)
@@ -321,13 +320,15 @@ def test_a_fit_is_drawn_with_its_correlation(example, tmp_path, ballscrew):
     assert joint.names == ("friction.boundary_friction_coefficient", "viscosity")
     alone = fitted(example, tmp_path, FIT.partition("[calibration]")[0])
     case = case_file.load(alone)
-    independent = band.band(case, band.BandOptions(samples=1024, only_given=True)).band["screw_torque"].parameters
+    independent = compute.band(case, compute.BandOptions(samples=1024, only_given=True)).band["screw_torque"].parameters
     path = fitted(example, tmp_path)
     found = (
-        band.band(case_file.load(path), band.BandOptions(samples=1024, only_given=True)).band["screw_torque"].parameters
+        compute.band(case_file.load(path), compute.BandOptions(samples=1024, only_given=True))
+        .band["screw_torque"]
+        .parameters
     )
     assert found.high - found.low < 0.9 * (independent.high - independent.low)
-    assert "friction" not in {law.slot for law in band.alternatives(case_file.load(path))}
+    assert "friction" not in {law.slot for law in compute.alternatives(case_file.load(path))}
     assert ballscrew("run", path).returncode == 0
 
 

@@ -16,7 +16,7 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.faces.cli import main as program
+from ballscrew.faces.cli import main
 from ballscrew.physics.friction.result import MECHANISMS
 
 ROOT = Path(__file__).parents[3]
@@ -417,9 +417,9 @@ def test_citations_survive_without_docstrings(ballscrew, example):
 @pytest.mark.parametrize(("asked", "shown"), [([], 0), (["default"], 1)])
 def test_warnings_of_libraries_reach_the_terminal_only_where_python_is_asked_for_them(asked, shown, monkeypatch):
     monkeypatch.setattr(sys, "warnoptions", asked)
-    monkeypatch.setattr(program, "command_line", lambda: lambda: np.ones(1) / np.zeros(1))
+    monkeypatch.setattr(main, "command_line", lambda: lambda: np.ones(1) / np.zeros(1))
     monkeypatch.setitem(sys.modules, "dask", None)  # what a command does to its own process ends with this test
     with warnings.catch_warnings(record=True) as seen:
         warnings.simplefilter("always")
-        program.main()
+        main.main()
     assert len(seen) == shown

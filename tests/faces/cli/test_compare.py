@@ -13,12 +13,12 @@ import ballscrew as bs
 from ballscrew.basis.output.sheet import Bars, Table
 from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema import case_schema as schema
+from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
 from ballscrew.faces.sheets import terminal, to_file
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.friction.result import MECHANISMS
-from ballscrew.questions.compare import compute as comparison
+from ballscrew.questions.compare import compute
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import charts
 from support.commands import with_small_files
@@ -34,7 +34,7 @@ def paper():
 
 @pytest.fixture(scope="module")
 def found(paper):
-    return comparison.comparison(paper)
+    return compute.comparison(paper)
 
 
 def document_of(process):
@@ -50,9 +50,9 @@ def test_every_model_and_every_other_law_once(paper, found):
     assert found.case is found.models[-1]
     expected = {
         (slot, name)
-        for slot, known in schema.LAWS.items()
+        for slot, known in case_schema.LAWS.items()
         for name in known
-        if name != schema.name_of_law(slot, getattr(paper.model, slot))
+        if name != case_schema.name_of_law(slot, getattr(paper.model, slot))
     }
     laws = [(row.candidate.slot, row.candidate.name) for row in found.laws]
     assert len(laws) == len(set(laws))
@@ -73,7 +73,9 @@ def test_each_row_is_the_model_with_one_law_replaced(paper, found):
     for row in found.laws:
         slot = row.candidate.slot
         changed = [
-            name for name in schema.LAWS if not same_law(getattr(row.candidate.model, name), getattr(paper.model, name))
+            name
+            for name in case_schema.LAWS
+            if not same_law(getattr(row.candidate.model, name), getattr(paper.model, name))
         ]
         assert changed == [slot]
         point = {name: getattr(paper.operation, name) for name in ("axial_load", "screw_speed")}
@@ -96,7 +98,7 @@ def test_spreads(found):
 
 def test_what_the_case_changes_is_a_row_of_its_own(example):
     case = case_file.load(example, ["model.friction.boundary_friction_coefficient=0.15"], "reference")
-    found = comparison.comparison(case)
+    found = compute.comparison(case)
     assert found.case not in found.models
     assert found.rows[0] is found.case
     assert found.case.candidate.name == "this case"
@@ -112,7 +114,7 @@ def test_what_the_case_changes_is_a_row_of_its_own(example):
 
 @pytest.mark.parametrize("name", presets())
 def test_any_model_can_be_the_case(name, example):
-    found = comparison.comparison(case_file.load(example, model=name))
+    found = compute.comparison(case_file.load(example, model=name))
     assert found.case.candidate.name == name
     assert all(math.isfinite(row.torque) for row in found.rows)
     for row in found.rows:
@@ -121,7 +123,7 @@ def test_any_model_can_be_the_case(name, example):
 
 def test_an_imposed_offset_does_not_stand_in_the_way(example):
     settings = ["model.slip=curvature", "model.pure_rolling_offset=0.3"]
-    found = comparison.comparison(case_file.load(example, settings, "reference"))
+    found = compute.comparison(case_file.load(example, settings, "reference"))
     models = {row.candidate.name: row.candidate.model for row in found.laws if row.candidate.slot == "slip"}
     assert set(models) == {"line", "ellipse"}
     assert all(model.pure_rolling_offset is None for model in models.values())
@@ -129,7 +131,7 @@ def test_an_imposed_offset_does_not_stand_in_the_way(example):
 
 
 def test_nothing_finite_has_no_spread(example, ballscrew):
-    found = comparison.comparison(case_file.load(example, ["operation.axial_load=1e300 N"], "reference"))
+    found = compute.comparison(case_file.load(example, ["operation.axial_load=1e300 N"], "reference"))
     assert not any(math.isfinite(row.torque) for row in found.rows)
     assert found.spread_of_models is None
     assert found.spread_of_laws is None
@@ -156,7 +158,7 @@ def test_the_table_is_readable(load, example, ballscrew):
     assert process.stderr == ""
     assert max(map(len, process.stdout.splitlines())) <= WIDTH
     assert not re.search("nan|inf ", process.stdout)
-    for slot in schema.LAWS:
+    for slot in case_schema.LAWS:
         assert f"\n  {slot.replace('_', ' ')}, in place of " in process.stdout
 
 
@@ -300,7 +302,7 @@ def test_a_full_disk_leaves_the_old_picture(example, tmp_path):
 @pytest.mark.parametrize("load", [4000.0, 2.0, 0.0])
 def test_what_a_picture_says(load, paper, tmp_path):
     case = dataclasses.replace(paper, operation=dataclasses.replace(paper.operation, axial_load=load))
-    found = comparison.comparison(case)
+    found = compute.comparison(case)
     seen = sheet(case, found)
     to_file.write(tmp_path / "spread.svg", seen)
     shown = drawn(tmp_path / "spread.svg")
@@ -314,7 +316,7 @@ def test_what_a_picture_says(load, paper, tmp_path):
         assert words in shown.text
     (bars,) = seen.of_kind(Bars)
     rows = [bar for bar in bars.bars if bar.parts]
-    by_slot = [row for slot in schema.LAWS for row in found.laws if row.candidate.slot == slot]
+    by_slot = [row for slot in case_schema.LAWS for row in found.laws if row.candidate.slot == slot]
     for bar, row in zip(rows, [*found.models, *by_slot], strict=True):
         assert sum(part for _, part, _ in bar.parts) == pytest.approx(row.torque, rel=1e-12, nan_ok=True)
         assert bar.hatched == bool(row.outside)

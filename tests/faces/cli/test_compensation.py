@@ -10,9 +10,7 @@ import ballscrew as bs
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Table
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.compensation.compute import document, position_compensation
-from ballscrew.questions.compensation.sheet import sheet
-from ballscrew.questions.compensation.table import isg, sinumerik
+from ballscrew.questions.compensation.answer import document, isg, position_compensation, sheet, sinumerik
 from ballscrew.questions.warm_up.compute import load, warmed_up
 from support.commands import ROOT
 

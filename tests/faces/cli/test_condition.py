@@ -9,9 +9,9 @@ import pytest
 
 from ballscrew.basis.output.sheet import Chart, Columns, Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.condition import compute
-from ballscrew.questions.condition.options import ConditionOptions
-from ballscrew.questions.condition.sheet import sheet
+from ballscrew.questions.condition import answer
+from ballscrew.questions.condition.answer import sheet
+from ballscrew.questions.condition.question import ConditionOptions
 from support.pictures import drawn
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -71,7 +71,7 @@ def test_without_temperatures_that_is_said_first(ballscrew, tmp_path):
 
 def test_the_sheet_has_every_test_with_its_intervals():
     case = case_file.load(CASE, model="olaru2005")
-    result = compute.of_files(case, [TABLE], ConditionOptions())
+    result = answer.of_files(case, [TABLE], ConditionOptions())
     shown = sheet(case, result)
     (table,), (columns,) = shown.of_kind(Table), shown.of_kind(Columns)
     for row, state in zip(table.rows, result.states, strict=True):

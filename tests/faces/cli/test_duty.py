@@ -13,8 +13,7 @@ from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli.main import main
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.duty import answer as documents
-from ballscrew.questions.duty import compute
+from ballscrew.questions.duty import answer, compute
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.duty.sheet import sheet
 from support.commands import ROOT
@@ -84,7 +83,7 @@ def found(tmp_path):
 
 
 def document(report):
-    return plain(documents.document(report))
+    return plain(answer.document(report))
 
 
 def records(document, kind):

@@ -16,7 +16,7 @@ import ballscrew as bs
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.shared import every_row, own_screws
-from ballscrew.questions.sweep import rows as sweep_rows
+from ballscrew.questions.sweep import table
 from support.fit_logs import PAPER, TRUE_FRICTION, columns, text_of
 
 TABLE = """\
@@ -239,7 +239,7 @@ def test_what_a_screw_does_not_have_is_no_number():
         {"x": [0, 1]},
         {"same": 1, "kind": "b"},
     )
-    found = sweep_rows.together({"one": one, "other": other}, {"own": "m"})
+    found = table.together({"one": one, "other": other}, {"own": "m"})
     assert np.isnan(found["a"].sel(screw="other")).all()
     assert found["b"].sel(screw="other").to_numpy().tolist() == [3.0, 4.0]
     assert found["validity_b"].dtype == bool

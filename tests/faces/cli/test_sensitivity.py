@@ -12,8 +12,8 @@ from ballscrew.basis.output.json_text import as_json
 from ballscrew.basis.output.sheet import Bars, Lines, Table
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.questions.sensitivity import compute
-from ballscrew.questions.sensitivity.sheet import LAWS_STAY, sheet
+from ballscrew.questions.sensitivity import answer
+from ballscrew.questions.sensitivity.answer import LAWS_STAY, sheet
 from support.pictures import words_of
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -34,11 +34,11 @@ def case():
 
 @pytest.fixture(scope="module", params=["sobol", "morris", "local"])
 def found(request, case):
-    return compute.sensitivity(case, compute.SensitivityOptions(method=request.param))
+    return answer.sensitivity(case, answer.SensitivityOptions(method=request.param))
 
 
 def of_method(case, method, **asked):
-    return compute.sensitivity(case, compute.SensitivityOptions(method=method, **asked))
+    return answer.sensitivity(case, answer.SensitivityOptions(method=method, **asked))
 
 
 # -- what is varied -------------------------------------------------------------------------------
@@ -59,7 +59,7 @@ def test_inputs_have_words_of_their_own(case):
     for one in (case, reference, case_file.load(EXAMPLES / "catalogue_screw.toml")):
         known = Configuration(one.model, one.screw, one.lubricant).inputs
         names = {name: entry for name, entry in known.items() if not name.startswith("nut.")}  # preload, once more
-        words = [compute.SensitivityReport(None, {}, names).describe(name) for name in names]
+        words = [answer.SensitivityReport(None, {}, names).describe(name) for name in names]
         assert len(set(words)) == len(words)
     assert "oil temperature" in words
     assert "decay of the asperities' share" in words
@@ -94,7 +94,7 @@ def test_the_table(ballscrew, example, case):
 def test_what_to_find_out_in_words(case):
     sobol = of_method(case, "sobol")
     halved = sobol.result.to_halve
-    first, second = (verdict.text for verdict in compute.verdicts(sobol))
+    first, second = (verdict.text for verdict in answer.verdicts(sobol))
     names = ", ".join(sobol.describe(name) for name in halved.inputs)
     assert first == (
         f"to halve the band of the friction torque on the screw, find out: {names} (leaves {halved.remaining:.0%})"
@@ -103,12 +103,12 @@ def test_what_to_find_out_in_words(case):
         second == f"{sobol.describe(halved.inputs[0])} alone leaves {sobol.result.explained_variance[0].remaining:.0%}"
     )
     only = case_file.load(EXAMPLES / "olaru2005.toml", GIVEN[:1], "corrected")
-    assert compute.verdicts(of_method(only, "sobol", only_given=True))[0].text.endswith("screw conformity (leaves 0%)")
-    assert [one.text for one in compute.verdicts(of_method(case, "morris"))] == [
+    assert answer.verdicts(of_method(only, "sobol", only_given=True))[0].text.endswith("screw conformity (leaves 0%)")
+    assert [one.text for one in answer.verdicts(of_method(case, "morris"))] == [
         "screening ranks the inputs; what to find out next: --method sobol"
     ]
     constant = of_method(only, "local", only_given=True, output="ideal_torque")
-    assert compute.verdicts(constant)[0].text.endswith("does not depend on any of these inputs")
+    assert answer.verdicts(constant)[0].text.endswith("does not depend on any of these inputs")
 
 
 def lines_of(case, report):
@@ -132,8 +132,8 @@ def test_a_calibration_is_said_to_be_correlated(case):
 
     calibrated = case_file.load(EXAMPLES / "olaru2005.toml", ["model.calibration=rexroth-2006"], "reference")
     found = of_method(calibrated, "morris", samples=4)
-    assert compute.CORRELATED in lines_of(calibrated, found)
-    assert compute.CORRELATED not in lines_of(dataclasses.replace(calibrated, calibration=None), found)
+    assert answer.CORRELATED in lines_of(calibrated, found)
+    assert answer.CORRELATED not in lines_of(dataclasses.replace(calibrated, calibration=None), found)
 
 
 # -- programs -------------------------------------------------------------------------------------
@@ -163,7 +163,7 @@ def test_json(ballscrew, example, case):
 
 
 def test_json_of_what_has_no_number(case):
-    document = json.loads(as_json(compute.document(case, of_method(case, "morris", samples=4))))["sensitivity"]
+    document = json.loads(as_json(answer.document(case, of_method(case, "morris", samples=4))))["sensitivity"]
     assert document["standard_deviation"] is None
     assert document["to_halve"] is None
     assert document["knowing"] == []
@@ -239,7 +239,7 @@ def test_bad_input(options, line, ballscrew, example, tmp_path):
 )
 def test_faults_name_the_option(asked, line, case):
     with pytest.raises(InputError) as caught:
-        compute.sensitivity(case, compute.SensitivityOptions(**asked))
+        answer.sensitivity(case, answer.SensitivityOptions(**asked))
     assert caught.value.lines() == [line]
 
 

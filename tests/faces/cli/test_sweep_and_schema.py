@@ -53,24 +53,24 @@ def test_every_example_of_the_schema_parses():
     from ballscrew.basis import units
     from ballscrew.basis.errors import Fault, fault_of
     from ballscrew.basis.quantities import fields_of
-    from ballscrew.cases.schema import case_schema as schema
+    from ballscrew.cases.schema import case_schema
 
     drive = tomllib.loads((ROOT / "examples" / "feed_drive.toml").read_text(encoding="utf-8"))
     written = {name: value for section in ("screw", "lubricant", "operation") for name, value in drive[section].items()}
-    assert {name: value for name, value in schema.EXAMPLES.items() if name in written} == {
+    assert {name: value for name, value in case_schema.EXAMPLES.items() if name in written} == {
         name: value for name, value in written.items() if name != "grade"
     }
-    definitions = schema.json_schema()["$defs"]
-    parts = {"Screw": bs.BallScrew, "Lubricant": bs.Lubricant, "Operation": schema.OperatingState,
+    definitions = case_schema.json_schema()["$defs"]
+    parts = {"Screw": bs.BallScrew, "Lubricant": bs.Lubricant, "Operation": case_schema.OperatingState,
              "Material": bs.Material, "Model": bs.FrictionModel}  # fmt: skip
     known = {title: dict(fields_of(part)) for title, part in parts.items()}
-    known["Lubricant"] |= {**fields_of(bs.DataSheet), "temperature": schema.SHEET_TEMPERATURE}
+    known["Lubricant"] |= {**fields_of(bs.DataSheet), "temperature": case_schema.SHEET_TEMPERATURE}
     tables = [(definitions[title]["properties"], quantities) for title, quantities in known.items()]
-    for slot in schema.LAWS:
+    for slot in case_schema.LAWS:
         options = definitions["Model"]["properties"][slot]["anyOf"][1:]
         for option in (one for one in options if "properties" in one):
             name = option["properties"]["law"].get("const")
-            tables.append((option["properties"], schema.coefficients_of(slot, name) if name else {}))
+            tables.append((option["properties"], case_schema.coefficients_of(slot, name) if name else {}))
     seen = 0
     for properties, quantities in tables:
         for field, quantity in quantities.items():

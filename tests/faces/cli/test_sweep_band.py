@@ -11,7 +11,7 @@ import xarray as xr
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import compute
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.sweep import compute as sweep
 from ballscrew.questions.sweep.band import with_band
@@ -99,7 +99,7 @@ def test_each_point_has_the_band_of_the_case_there(example, axes, settings):
     for place in np.ndindex(*map(len, axes.values())):
         texts = [values[i] for values, i in zip(axes.values(), place, strict=True)]
         changes = [f"{path}={text}" for path, text in zip(paths, texts, strict=True)]
-        one = band.band(case_file.load(EXAMPLES / example, [*settings, *changes]), OPTIONS).band
+        one = compute.band(case_file.load(EXAMPLES / example, [*settings, *changes]), OPTIONS).band
         for output in ("screw_torque", "efficiency"):
             value = float(found[output][place])
             assert value == pytest.approx(one[output].value, rel=1e-9, nan_ok=True)  # the load drives: no efficiency
@@ -123,7 +123,7 @@ def test_nothing_uncertain_is_a_band_of_other_laws_alone():
     alone = swept(case, ["screw_speed=100, 600 rpm"], options=BandOptions(samples=64, only_given=True))
     for place, speed in enumerate((100, 600)):
         there = case_file.load(DRIVE, [f"operation.screw_speed={speed} rpm"])
-        one = band.band(there, BandOptions(samples=64, only_given=True)).band["screw_torque"]
+        one = compute.band(there, BandOptions(samples=64, only_given=True)).band["screw_torque"]
         assert [float(alone[f"screw_torque_{end}"][place]) for end in ("low", "high")] == pytest.approx(list(one.both))
 
 

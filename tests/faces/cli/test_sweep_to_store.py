@@ -14,7 +14,7 @@ import xarray as xr
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.sweep import compute as sweeps
+from ballscrew.questions.sweep import compute
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
@@ -111,19 +111,19 @@ def test_a_folder_of_others_is_left_as_it_is(example, ballscrew, tmp_path):
 def test_the_memory_is_no_limit_of_a_store(example, tmp_path):
     case = case_file.load(example)
     vary = ["axial_load=10:4000:10000 N", "screw_speed=1:1000:10000 rpm"]
-    plan = sweeps.plan(case, vary, [], tmp_path / "map.zarr")
+    plan = compute.plan(case, vary, [], tmp_path / "map.zarr")
     assert [len(values) for values in plan.axes.values()] == [10_000, 10_000]
     with pytest.raises(InputError, match=r"too many values .* or write to a folder: --to map\.zarr"):
-        sweeps.plan(case, vary, [], tmp_path / "map.nc")
+        compute.plan(case, vary, [], tmp_path / "map.nc")
     with pytest.raises(InputError, match="count from 1 to 10,000,000"):
-        sweeps.plan(case, ["axial_load=10:4000:10000001 N"], [], tmp_path / "map.zarr")
+        compute.plan(case, ["axial_load=10:4000:10000001 N"], [], tmp_path / "map.zarr")
     assert not list(tmp_path.iterdir())
 
 
 def test_without_zarr_the_extra_is_named(example, tmp_path, monkeypatch):
-    monkeypatch.setattr(sweeps.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(compute.importlib.util, "find_spec", lambda name: None)
     with pytest.raises(InputError, match=r'--to: needs zarr .* pip install "ballscrew\[data\]"'):
-        sweeps.plan(case_file.load(example), [], [], tmp_path / "map.zarr")
+        compute.plan(case_file.load(example), [], [], tmp_path / "map.zarr")
 
 
 @pytest.mark.slow

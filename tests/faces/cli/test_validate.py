@@ -16,9 +16,7 @@ from ballscrew.faces.sheets import pictures
 from ballscrew.physics.friction.calibrations import calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.shared.charts import house_style
-from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate import document as validation_documents
-from ballscrew.questions.validate import sheet as sheets
+from ballscrew.questions.validate import compute, document, sheet
 from support.documents import assert_same
 from support.validation_sets import every_set
 
@@ -64,7 +62,7 @@ def own(tmp_path):
 
 @pytest.fixture(scope="module")
 def every():
-    return plain(validation_documents.documents([entry for entries in every_set() for entry in entries]))
+    return plain(document.documents([entry for entries in every_set() for entry in entries]))
 
 
 def test_a_list_uncalibrated_first_calibrated_last(every):
@@ -301,7 +299,7 @@ def test_another_model_is_as_it_is(ballscrew):
 
 
 def test_sets_that_a_model_cannot_do_are_left_out_aloud():
-    asked = validation.request(model="olaru2005")
+    asked = compute.request(model="olaru2005")
     assert "rexroth-single-nut" not in [data.name for data in asked.sets]
     assert asked.notes == ["rexroth-single-nut: left out, the model olaru2005 knows no balls with four contacts"]
 
@@ -346,9 +344,9 @@ def test_picture(ballscrew, tmp_path):
 
 
 def test_picture_shows_all_ratios_with_their_bands():
-    asked = validation.request()
+    asked = compute.request()
     found = [list(entries) for entries in every_set()]
-    seen = sheets.picture(found, asked)
+    seen = sheet.picture(found, asked)
     charts = list(seen.of_kind(Chart))
     # rings of two sizes of balls, and a single worked example, show no trend over it
     names = [(data.name, name) for data in SETS.values() for name in data.axes if _values(found, data.name, name) > 2]

@@ -14,10 +14,10 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Columns
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.band.heat_samples import heat_samples
-from ballscrew.questions.duty import band as duty_band
+from ballscrew.questions.band.compute import heat_samples
+from ballscrew.questions.duty import band
 from ballscrew.questions.warm_up import band as warm_up_band
-from ballscrew.questions.warm_up.answer import document as document_of
+from ballscrew.questions.warm_up.answer import document
 from ballscrew.questions.warm_up.compute import SERIES, load, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
 from ballscrew.questions.warm_up.sheet import sheet
@@ -150,7 +150,7 @@ def test_band_in_all_forms(ballscrew, tmp_path):
 def test_a_band_of_nothing_is_refused(study):
     case = load(EXAMPLE, ["model.name=olaru2005"], None)
     # the duty itself is not asked for
-    banded, of = (duty_band.band, SimpleNamespace(case=case)) if study == "duty" else (warm_up_band.band, case)
+    banded, of = (band.band, SimpleNamespace(case=case)) if study == "duty" else (warm_up_band.band, case)
     with pytest.raises(InputError, match=r"^--only-given: the case gives no input a distribution"):
         banded(of, only_given=True)
 
@@ -168,7 +168,7 @@ def test_what_the_case_gives_is_no_default(case):
 
 def test_an_operating_point_goes_to_and_fro(case):
     report = warmed_up(case(POINT), hours=0.5)
-    written = plain(document_of(report))
+    written = plain(document(report))
     results = written["results"]
     assert results["network"]["stroke"] == pytest.approx(0.5)  # half the shaft
     assert results["network"]["mean_speed"] == pytest.approx(1000 * math.tau / 60, rel=1e-12)
@@ -229,13 +229,13 @@ def test_a_length_that_is_not_given_is_assumed_and_warned_of(case, settings, len
     written = POINT.partition("[surroundings]")[0]
     report = warmed_up(case(written, *settings, SIMPLE), hours=0.02)
     assert report.warm_up.network.shaft.length == pytest.approx(length)
-    warned = records(plain(document_of(report)), "warnings")["warm_up.assumed_length"]
+    warned = records(plain(document(report)), "warnings")["warm_up.assumed_length"]
     assert warned["value"] == pytest.approx(length)
 
 
 def test_words_say_what_stands_in_the_document(case):
     report = warmed_up(case(POINT + DOUBLE), hours=0.5, cool_down=0.25)
-    said, written = " ".join(terminal.text(sheet(report)).split()), plain(document_of(report))
+    said, written = " ".join(terminal.text(sheet(report)).split()), plain(document(report))
     for record in (*written["verdicts"], *written["warnings"]):
         assert record["text"] in said
     assert "0.75 h" in said
@@ -250,7 +250,7 @@ def test_runaway_is_said_and_no_number_clipped(case):
         "surroundings.ball_conductance=1 W/K",
     )
     report = warmed_up(case(POINT + DOUBLE.replace("3 kN", "5 kN"), *hot), hours=2)
-    written = plain(document_of(report))
+    written = plain(document(report))
     end, verdict = written["results"]["equilibrium"], records(written, "verdicts")["verdict.equilibrium"]
     assert end["exists"] is False
     assert end["margin"] < 0
@@ -267,9 +267,9 @@ def test_temperatures_of_a_motion_do_not_count(case):
         f'[[motion.segment]]\nduration = "2 s"\nspeed = "{speed} m/min"\ntemperature = "50 degC"\n' for speed in (6, -6)
     )
     report = warmed_up(case(POINT + segments), hours=0.01)
-    warned = records(plain(document_of(report)), "warnings")
+    warned = records(plain(document(report)), "warnings")
     assert "do not count" in warned["warm_up.own_temperatures"]["text"]
-    said = records(plain(document_of(report)), "verdicts")["verdict.long_cycle"]["text"]
+    said = records(plain(document(report)), "verdicts")["verdict.long_cycle"]["text"]
     assert "the heat goes along with the nut" in said  # 4 s of 36 s
 
 
@@ -277,9 +277,9 @@ def test_an_oil_warmer_than_its_data_sheet_goes_is_warned_of(case):
     sheet = 'kinematic_viscosity_40 = "100 cSt"\nkinematic_viscosity_100 = "11 cSt"\ndensity_15 = "880 kg/m^3"'
     written = POINT.replace('grade = "ISO VG 100"', sheet + '\nhighest_temperature = "31 degC"')
     report = warmed_up(case(written, "surroundings.ambient=30 degC"), hours=0.5)
-    said = [record["text"] for record in plain(document_of(report))["warnings"]]
+    said = [record["text"] for record in plain(document(report))["warnings"]]
     assert any("31 degC" in one for one in said), said
-    assert plain(document_of(warmed_up(case(written, "surroundings.ambient=10 degC"), hours=0.5)))["warnings"] == []
+    assert plain(document(warmed_up(case(written, "surroundings.ambient=10 degC"), hours=0.5)))["warnings"] == []
 
 
 def test_self_heating_is_the_steady_state(case):
@@ -457,6 +457,6 @@ def test_fit_with_self_heating(ballscrew, tmp_path, case):
 def test_inputs_have_the_surroundings_that_count(case):
     """Also of a case without any: a page shows them where nothing is typed."""
     bare = POINT.replace('[surroundings]\nshaft_length = "1 m"\n', "")
-    inputs = document_of(warmed_up(case(bare), hours=0.1))["inputs"]
+    inputs = document(warmed_up(case(bare), hours=0.1))["inputs"]
     assert inputs["surroundings"]["ambient"] == 293.15
     assert "shaft_length" not in inputs["surroundings"]

@@ -9,11 +9,10 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files import oil_library as oils
+from ballscrew.cases.case_files import case_file, oil_library
 from ballscrew.physics.laws.nut_losses import Seals
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.questions.sweep import compute as sweep
+from ballscrew.questions.sweep import compute
 
 FEED = Path(__file__).parents[3] / "examples" / "feed_drive.toml"
 TEXT = FEED.read_text(encoding="utf-8")
@@ -50,7 +49,7 @@ def test_so_is_a_torque_for_each_ampere():
 @pytest.mark.parametrize("text", ["10-100 rpm", "10..100 rpm", "10 to 100 rpm", "10 – 100 rpm"])
 def test_a_range_in_prose(text):
     with pytest.raises(InputError) as raised:
-        sweep.plan(case_file.load(FEED), [f"screw_speed={text}"], (), None)
+        compute.plan(case_file.load(FEED), [f"screw_speed={text}"], (), None)
     (line,) = raised.value.lines()
     assert line.endswith(f'is not start:stop:count ({text}) · write "10:100:5 rpm" for five values, ends included')
 
@@ -84,11 +83,13 @@ def test_a_law_without_its_section(setting, said):
 
 
 def test_the_consistency_of_a_grease():
-    known = oils.oils()
+    known = oil_library.oils()
     of_class_2 = [sheet.name for sheet in known.values() if "2" in sheet.nlgi.split("-")]
-    assert [sheet.name for sheet in oils.chosen(known, "NLGI 2")] == of_class_2
-    assert [sheet.name for sheet in oils.chosen(known, "arcanol nlgi-2")] == [n for n in of_class_2 if "Arcanol" in n]
-    assert {s.nlgi for s in oils.chosen(known, "NLGI 3")} == {"2-3", "3", "3-4"}
+    assert [sheet.name for sheet in oil_library.chosen(known, "NLGI 2")] == of_class_2
+    assert [sheet.name for sheet in oil_library.chosen(known, "arcanol nlgi-2")] == [
+        n for n in of_class_2 if "Arcanol" in n
+    ]
+    assert {s.nlgi for s in oil_library.chosen(known, "NLGI 3")} == {"2-3", "3", "3-4"}
     assert 'consistency of a grease, and friction follows its base oil: see "ballscrew oils list NLGI 2"' in refused(
         'lubricant.grade="NLGI 2"'
     )

@@ -31,8 +31,7 @@ from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.cli import sharing
-from ballscrew.faces.report import contents, input_tables
-from ballscrew.faces.report import curve_figures as figures
+from ballscrew.faces.report import contents, curve_figures, input_tables
 from ballscrew.faces.report.curves import curves
 from ballscrew.faces.report.files import report_bytes
 from ballscrew.faces.report.heading import Heading
@@ -41,9 +40,8 @@ from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.nut_losses import ConstantTorque
-from ballscrew.questions.axis.compute import SERIES as CHAIN
-from ballscrew.questions.axis.compute import chain_of
-from ballscrew.questions.band import compute as band
+from ballscrew.questions.axis.answer import SERIES, chain_of
+from ballscrew.questions.band import compute
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import NUMBERS, duty
 from ballscrew.questions.run.compute import run
@@ -216,7 +214,7 @@ def structure_of(reader):
 def test_the_numbers_are_those_of_the_program(pdf, page):
     found = run(case_of("catalogue_screw"))
     result = found.friction
-    bands = band.band(case_of("catalogue_screw"), band.BandOptions(samples=SAMPLES)).band
+    bands = compute.band(case_of("catalogue_screw"), compute.BandOptions(samples=SAMPLES)).band
     torque = Number(float(result.screw_torque), _TORQUE, band=bands["screw_torque"].both)
     said = [
         f"Friction torque on the screw {words_of(torque)}",
@@ -231,7 +229,7 @@ def test_the_numbers_are_those_of_the_program(pdf, page):
 
 def test_it_says_how_far_off_it_may_be_and_why(pdf, page):
     case = case_of("catalogue_screw")
-    found = band.band(case, band.BandOptions(samples=SAMPLES))
+    found = compute.band(case, compute.BandOptions(samples=SAMPLES))
     torque = found.band["screw_torque"]
     low, high = units.ends(*torque.both, _TORQUE)
     for words in (text_of(pdf), page.words):
@@ -433,7 +431,7 @@ def test_a_torque_without_a_number_is_a_gap():
     found = curves(case_of("feed_drive"))
     parts = {name: part.copy() for name, part in found.parts.items()}
     parts["helix"][20:30] = np.nan
-    panel, _ = figures._over_speed(found._replace(parts=parts)).axes
+    panel, _ = curve_figures._over_speed(found._replace(parts=parts)).axes
     total = panel.lines[0].get_ydata()
     assert np.all(np.isnan(total[20:30]))
     assert np.isfinite(total[30:]).all()
@@ -801,7 +799,7 @@ def test_stiffness_is_that_of_the_command():
     assert places.columns[:2] == ("", "rigidity")
     assert len(places.rows) == len(found.shown)
     for row, at in zip(places.rows, found.shown, strict=True):
-        assert row[1] == units.shown(float(found.series["total"][at]), CHAIN["total"])
+        assert row[1] == units.shown(float(found.series["total"][at]), SERIES["total"])
 
 
 def test_a_motion_without_an_installation_has_no_stiffness():

@@ -11,7 +11,7 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.faces.report import several
 from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import compute
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared.report_blocks import as_data
@@ -39,7 +39,7 @@ def test_each_column_is_what_the_design_has_by_itself(content):
     for place, name in enumerate(NAMES, start=1):
         case = case_of(name)
         value = float(run(case).friction.screw_torque)
-        both = band.band(case, band.BandOptions(samples=SAMPLES)).band["screw_torque"].both
+        both = compute.band(case, compute.BandOptions(samples=SAMPLES)).band["screw_torque"].both
         change = "" if place == 1 else f", {value / first - 1:+.0%}"
         assert torque[place] == f"{words(Number(value, _TORQUE, band=both))}{change}"
         assert verdicts[place].lower() == checked("", case).verdict.lower()

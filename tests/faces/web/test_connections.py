@@ -9,8 +9,7 @@ import pytest
 pytest.importorskip("fastapi", reason="fastapi is not installed (the extra web)")
 import uvicorn
 
-from ballscrew.faces.web import connections
-from ballscrew.faces.web import server as web
+from ballscrew.faces.web import connections, server
 from ballscrew.faces.web.guard import HEADERS
 
 HEAD = b"%s /api/v1/run HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
@@ -25,7 +24,7 @@ def responses(*pieces):
     transport.get_extra_info.return_value = None
     transport.is_closing.side_effect = lambda: transport.close.called
     transport.write.side_effect = written.extend
-    application = web.application()
+    application = server.application()
 
     async def scene():
         config = uvicorn.Config(

@@ -15,7 +15,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli import main
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import compute
 from support.documents import assert_same, differences
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "examples").glob("*.toml"))
@@ -350,7 +350,7 @@ def test_each_row_of_the_catalogue_is_a_case(server, every):
 
 
 #: One by its name is quick; the others, and all of them, take seconds.
-ONE, *SETS = validation.SETS
+ONE, *SETS = compute.SETS
 
 
 @pytest.mark.parametrize("name", [ONE, *(pytest.param(name, marks=pytest.mark.long) for name in ["", *SETS])])

@@ -13,7 +13,7 @@ import psutil
 import pytest
 
 from ballscrew.faces.web import jobs as jobs_of
-from ballscrew.faces.web import server as servers
+from ballscrew.faces.web import server
 from ballscrew.faces.web.job_process import Answer, Computed, Progress, Row
 from ballscrew.faces.web.jobs import Jobs
 from ballscrew.faces.web.problems import Refused
@@ -151,7 +151,7 @@ def test_without_forks(paper):
     """As on other systems: the process starts from nothing."""
 
     async def scene():
-        application = servers.application()
+        application = server.application()
         transport = httpx.ASGITransport(application)
         async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=LONG) as client:
             first = (await client.post("/api/v1/jobs/run", json={"case": paper})).json()

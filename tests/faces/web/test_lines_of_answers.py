@@ -14,8 +14,8 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import bodies, documents, server
 from ballscrew.faces.web.bodies import case_of
 from ballscrew.faces.web.request_queue import OUT_OF_TIME, RequestQueue
-from ballscrew.questions.curves.compute import curves
-from ballscrew.questions.run import compute as runs
+from ballscrew.questions.curves import curves
+from ballscrew.questions.run import compute
 from support.documents import assert_same
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -41,7 +41,7 @@ def test_each_line_is_what_its_address_answers(server, name, signs):
     case["operation"] = {"axial_load": f"{2 * signs[0]} kN", "screw_speed": f"{300 * signs[1]} rpm"}
     lines = lines_of(server, {"case": case})
     found = {line["question"]: line["answer"] for line in lines}
-    curve_of = curves(runs.run(case_of(case)))
+    curve_of = curves(compute.run(case_of(case)))
     assert [line["question"] for line in lines][:3] == ["run", "check", "over_speed"]
     assert found.keys() == {"run", "check", "drawing", *curve_of}
     assert ("cold_and_hot" in found) == (name != "olaru2005.toml" and signs[0] != 0)
@@ -55,7 +55,7 @@ def test_each_line_is_what_its_address_answers(server, name, signs):
 
 def test_the_axes_are_around_the_operating_point(paper):
     paper["operation"] = {"axial_load": "-1 kN", "screw_speed": "2 rad/s"}
-    found = curves(runs.run(case_of(paper)))
+    found = curves(compute.run(case_of(paper)))
     loads = [float(value) for value in found["over_load"].vary["axial_load"].removesuffix(" N").split(", ")]
     speeds = [float(value) for value in found["over_speed"].vary["screw_speed"].removesuffix(" rad/s").split(", ")]
     assert (loads[0], loads[28], loads[29], loads[-1], len(loads)) == (-2000.0, -40.0, 40.0, 2000.0, 58)
@@ -97,7 +97,7 @@ def run_scene(scene):
 def test_a_case_is_built_and_run_once(monkeypatch, paper):
     case = {**paper, "nut": {"type": "single"}}
     built, ran = [], []
-    build, run = case_file.build, runs.run
+    build, run = case_file.build, compute.run
     monkeypatch.setattr(bodies.case_file, "build", lambda *a, **k: (built.append(a), build(*a, **k))[1])
     monkeypatch.setattr(documents.runs, "run", lambda *a, **k: (ran.append(a), run(*a, **k))[1])
     # as a server that has answered nothing yet
@@ -174,7 +174,7 @@ def test_a_curve_out_of_time_comes_with_what_goes_on_with_it(monkeypatch, paper)
     run_scene(scene())
     lines = {line["question"]: line for line in map(json.loads, found[0].text.splitlines())}
     assert "answer" in lines["run"]
-    wanted = curves(runs.run(case_of(paper)))
+    wanted = curves(compute.run(case_of(paper)))
     assert wanted
     for name, curve in wanted.items():
         assert [fault["id"] for fault in lines[name]["problem"]["faults"]] == [OUT_OF_TIME]

@@ -12,7 +12,7 @@ import pytest
 import ballscrew
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.friction.loaded_balls import ball_angles
-from ballscrew.questions.shared.chart_colours import GROWING
+from ballscrew.questions.shared.charts import GROWING
 
 from .test_page_access import violations
 from .test_page_duty import case_of

@@ -9,7 +9,7 @@ import pytest
 
 from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.output.json_text import plain
-from ballscrew.faces.web import server as servers
+from ballscrew.faces.web import server
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.questions.select.answer import document
 from ballscrew.questions.select.compute import select
@@ -71,7 +71,7 @@ def test_a_plan_with_a_table_is_no_quick_request():
     """A table of a megabyte is read for seconds: it waits with the heavy requests, of which none may wait here."""
 
     async def statuses():
-        transport = httpx.ASGITransport(servers.application(requests=RequestQueue(waiting=0)))
+        transport = httpx.ASGITransport(server.application(requests=RequestQueue(waiting=0)))
         async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=60) as client:
             table = {"table": {"name": "own.csv", "text": "name,lead [mm]\n"}}
             bodies = ({"need": NEED, "words": "rexroth 32x10", **more} for more in ({}, table))

@@ -15,8 +15,7 @@ import httpx
 import pytest
 import uvicorn
 
-from ballscrew.faces.web import connections
-from ballscrew.faces.web import server as web
+from ballscrew.faces.web import connections, server
 
 ENDS = (0, 130)
 
@@ -105,7 +104,7 @@ def test_what_was_sent_before_the_end_is_answered(paper, accepted):
     A client that has not sent its whole request by then may be reset: no server can answer what it has not got.
     """
     listening = socket.create_server(("127.0.0.1", 0))
-    application = web.application()
+    application = server.application()
 
     async def scene():
         config = uvicorn.Config(application, http=connections._TimeoutProtocol, lifespan="off", log_level="error")

@@ -16,7 +16,7 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
-from ballscrew.evidence.moving_logs import columns as moving_logs
+from ballscrew.evidence.moving_logs import columns
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.files.tables import decimals, rows, sheets
 from ballscrew.files.tables.headings import Column, heading_of, headings_in, known_heading_of
@@ -35,7 +35,7 @@ COLUMN = (NAME, LEAD, BALL, TURNS, STARTS)
 
 def test_names_of_columns_have_letters():
     """So numbers, which most cells of a log are, need not be looked at to find its headings."""
-    known = [*COLUMNS, *torque_logs.COLUMNS, *moving_logs.COLUMNS, *trajectory_file.COLUMNS]
+    known = [*COLUMNS, *torque_logs.COLUMNS, *columns.COLUMNS, *trajectory_file.COLUMNS]
     names = [name for column in known for name in (column.name, *column.aliases, *column.hints, *column.capitals)]
     assert all(any(map(str.isalpha, name)) for name in names)
     assert known_heading_of("-12.5", 0, known) is None

@@ -28,7 +28,7 @@ from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.checks import checks
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.solvers.load_distribution import ball_loads
-from ballscrew.questions.optimise.design_space import SearchOptions
+from ballscrew.questions.optimise.design_model import SearchOptions
 from ballscrew.questions.select.requirements import Requirements
 from support.synthetic_logs import OIL
 

@@ -8,7 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import OIL as PAPER_OIL
-from ballscrew.evidence.papers.olaru2005 import SCREW as PAPER
+from ballscrew.evidence.papers.olaru2005 import SCREW
 from ballscrew.physics.equations import across_groove, presliding
 from ballscrew.physics.friction.across_groove import arms_of
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
@@ -56,7 +56,7 @@ def test_a_short_travel_is_the_begin_of_the_curve(turned, travel):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("screw", "oil", "load"), [(PAPER, PAPER_OIL, 500.0), (SINGLE, OIL, 3605.0), (SINGLE, OIL, 15e3)]
+    ("screw", "oil", "load"), [(SCREW, PAPER_OIL, 500.0), (SINGLE, OIL, 3605.0), (SINGLE, OIL, 15e3)]
 )
 def test_bristles_slip_as_the_reference_does(screw, oil, load):
     """Measured: 0.994 and 0.998 of the slip torque of the strips."""

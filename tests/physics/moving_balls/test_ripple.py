@@ -9,7 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.physics.components.screw import SINGLE_NUT
-from ballscrew.physics.equations import ripple as equations
+from ballscrew.physics.equations.ripple import ball_pass_harmonic, ball_pass_order
 from ballscrew.physics.moving_balls.chain import Circuit, chain_run
 from ballscrew.physics.moving_balls.loaded_zone import loaded_zone
 from ballscrew.physics.moving_balls.ripple import (
@@ -105,9 +105,9 @@ def test_balls_at_equal_distances_make_the_harmonics_of_their_number():
     torque = torques_of(MODEL, SCREW, OIL, run, OMEGA)
     assert not np.any(torque["rubbing"])
     assert not np.any(torque["return"])
-    order = equations.ball_pass_order(zone.natural_speed, pitch)
+    order = ball_pass_order(zone.natural_speed, pitch)
     found = amplitudes_at(run.angle, torque["balls"], [order, 2 * order]) / np.mean(torque["balls"])
-    expected = [abs(equations.ball_pass_harmonic(m, zone.length / pitch)) for m in (1, 2)]
+    expected = [abs(ball_pass_harmonic(m, zone.length / pitch)) for m in (1, 2)]
     np.testing.assert_allclose(found, expected, rtol=0.01)
 
 
@@ -122,7 +122,7 @@ def test_a_spall_takes_its_part_of_the_torque_once_a_ball_pass():
     left = zone.nominal_load * (1 - spall.depth / zone.nominal_approach) ** 1.5
     lost = float(np.interp(zone.nominal_load, loads, torques) - np.interp(left, loads, torques))
     assert np.mean(drop) == pytest.approx(lost * spall.width / pitch, rel=0.01)
-    order = equations.ball_pass_order(zone.natural_speed, pitch)
+    order = ball_pass_order(zone.natural_speed, pitch)
     pulses = [2 / (math.pi * m) * math.sin(math.pi * m * spall.width / pitch) * lost for m in (1, 2)]
     np.testing.assert_allclose(amplitudes_at(usual.angle, drop, [order, 2 * order]), pulses, rtol=0.01)
 

@@ -12,8 +12,7 @@ import ballscrew as bs
 from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.files.tables.column_names import YES
-from ballscrew.physics.sizing import own_nut as own
-from ballscrew.physics.sizing import table_balls
+from ballscrew.physics.sizing import own_nut, table_balls
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.sizing.table_balls import BY_TABLE, with_table_balls
@@ -38,7 +37,7 @@ every_row = for_each(row={f"{place}: {row.name}": row for place, row in enumerat
 
 def without(row, *names):
     listed = {name: getattr(row, name) for name in KEPT if name not in names}
-    return own.completed({name: value for name, value in listed.items() if value is not None})
+    return own_nut.completed({name: value for name, value in listed.items() if value is not None})
 
 
 def estimate(found, name):
@@ -55,7 +54,7 @@ def is_in_band(found, name, value):
 
 def balls_of(rows):
     """Each row of a table that prints no ball, with the ball that its table tells, and the one that it has."""
-    blank = [dataclasses.replace(row, ball_diameter_source=own.BY_RATING) for row in rows]
+    blank = [dataclasses.replace(row, ball_diameter_source=own_nut.BY_RATING) for row in rows]
     return [
         (row.ball_diameter, known.ball_diameter)
         for row, known in zip(with_table_balls(blank), rows, strict=True)
@@ -85,7 +84,7 @@ def test_balls_that_are_printed_help_and_stay():
     half = [
         row
         if place % 2
-        else dataclasses.replace(row, ball_diameter=0.9 * row.ball_diameter, ball_diameter_source=own.BY_RATING)
+        else dataclasses.replace(row, ball_diameter=0.9 * row.ball_diameter, ball_diameter_source=own_nut.BY_RATING)
         for place, row in enumerate(rows)
     ]
     result = with_table_balls(half)
@@ -131,7 +130,7 @@ def test_no_ball_has_a_rating_out_of_all_proportion():
 def test_balls_by_the_rating_are_within_their_band(row):
     """No constant of it is fitted, to these rows or others."""
     found = without(row, "ball_diameter")
-    assert estimate(found, "ball_diameter").source == own.BY_RATING
+    assert estimate(found, "ball_diameter").source == own_nut.BY_RATING
     assert is_in_band(found, "ball_diameter", row.ball_diameter)
     assert is_in_band(found, "loaded_balls", row.loaded_balls)
     assert found.warnings == ()
@@ -140,13 +139,13 @@ def test_balls_by_the_rating_are_within_their_band(row):
 @every_row
 def test_balls_by_lead_and_diameter_are_within_their_band(row):
     found = without(row, "ball_diameter", "dynamic_load_rating")
-    assert estimate(found, "ball_diameter").source == own.BY_RULE
+    assert estimate(found, "ball_diameter").source == own_nut.BY_RULE
     assert is_in_band(found, "ball_diameter", row.ball_diameter)
 
 
 def places(rows):
-    pitches = [min(row.lead / row.starts / row.nominal_diameter, own.LARGEST_PITCH) for row in rows]
-    return np.column_stack([np.ones(len(rows)), np.log(np.array(pitches) / own.LARGEST_PITCH)])
+    pitches = [min(row.lead / row.starts / row.nominal_diameter, own_nut.LARGEST_PITCH) for row in rows]
+    return np.column_stack([np.ones(len(rows)), np.log(np.array(pitches) / own_nut.LARGEST_PITCH)])
 
 
 def sizes(rows):
@@ -155,13 +154,13 @@ def sizes(rows):
 
 def test_the_rule_of_the_ball_is_the_least_squares_of_the_rows_shipped():
     found, *_ = np.linalg.lstsq(places(ROWS), sizes(ROWS), rcond=None)
-    assert math.exp(found[0]) == pytest.approx(own.RULE_FACTOR, abs=5e-4)
-    assert found[1] == pytest.approx(own.RULE_EXPONENT, abs=5e-3)
+    assert math.exp(found[0]) == pytest.approx(own_nut.RULE_FACTOR, abs=5e-4)
+    assert found[1] == pytest.approx(own_nut.RULE_EXPONENT, abs=5e-3)
 
 
 def test_the_band_of_the_rule_holds_rows_that_it_was_not_fitted_to():
     """Each row by the rule of the other sizes; with the row itself the errors are smaller than they are."""
-    low, high = own.RULE_BAND
+    low, high = own_nut.RULE_BAND
     for row in ROWS:
         size = (row.make, row.nominal_diameter, row.lead)
         others = [other for other in ROWS if (other.make, other.nominal_diameter, other.lead) != size]
@@ -177,8 +176,8 @@ def test_the_conformity_follows_from_the_root_and_not_from_the_rating(row):
     """Root diameters have 0.54, of balls of 3.175 mm 0.56; the ratings of both are those of one conformity, 0.52."""
     by_root = without(row).row.conformity
     assert by_root == pytest.approx(0.56 if row.ball_diameter == 3.175e-3 else 0.54, abs=5e-4)
-    assert estimate(without(row), "conformity").source == own.BY_ROOT
-    assert estimate(without(row, "root_diameter"), "conformity").source == own.BY_DEFAULT
+    assert estimate(without(row), "conformity").source == own_nut.BY_ROOT
+    assert estimate(without(row, "root_diameter"), "conformity").source == own_nut.BY_DEFAULT
     rated = ratings_of(row).dynamic / row.dynamic_load_rating
     assert rated == pytest.approx(1, abs=0.06)
     assert ratings_of(dataclasses.replace(row, rating_conformity=by_root)).dynamic / row.dynamic_load_rating < 0.82
@@ -229,7 +228,7 @@ def test_a_rating_in_the_wrong_unit_is_named_with_its_value_and_a_remedy():
     assert "7.21 kN" in warning.text
     assert "check its unit" in warning.text
     found = without(dataclasses.replace(row, dynamic_load_rating=7210.0), "ball_diameter")
-    assert estimate(found, "ball_diameter").source == own.BY_RULE
+    assert estimate(found, "ball_diameter").source == own_nut.BY_RULE
     assert "goes with no ball" in found.warnings[0].text
 
 

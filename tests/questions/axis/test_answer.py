@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from ballscrew.basis.output.sheet import Columns, Table
-from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, ChainResults, chain_of, document
-from ballscrew.questions.axis.sheet import sheet
+from ballscrew.questions.axis.answer import FRICTION, LOAD, SERIES, SPEED, ChainResults, chain_of, document, sheet
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.answer_parts import Assumed
 from support.answers import undescribed, without_unit

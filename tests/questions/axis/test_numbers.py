@@ -8,8 +8,7 @@ import pytest
 from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.axis.compute import SERIES, SPEED, chain_of
-from ballscrew.questions.axis.sheet import sheet
+from ballscrew.questions.axis.answer import SERIES, SPEED, chain_of, sheet
 from ballscrew.questions.check.compute import checked
 from support.axis_cases import load
 from support.commands import ROOT

@@ -9,7 +9,7 @@ from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import compute, document
-from ballscrew.questions.band.answer import BandResults
+from ballscrew.questions.band.document import BandResults
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared import declared

@@ -9,8 +9,7 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.bands import _without  # of a linear model, which no screw is
 from ballscrew.physics.components.nut import Nut
-from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import document as documents
+from ballscrew.questions.band import compute, document
 from ballscrew.questions.band.options import BandOptions
 
 OWN = {
@@ -32,7 +31,7 @@ def case(screw=OWN, nut=DOUBLE, **sections):
 
 
 def drawn(found):
-    return [candidate.name for candidate in band.of_makers(found)]
+    return [candidate.name for candidate in compute.of_makers(found)]
 
 
 @pytest.mark.slow
@@ -58,7 +57,7 @@ def test_a_friction_law_of_ones_own_has_a_band_without_makers():
     own = dataclasses.replace(found, model=dataclasses.replace(found.model, friction=constant_friction))
     assert drawn(own) == []
     assert isinstance(own.screw.nut, Nut)
-    report = band.band(own, BandOptions(samples=16))
+    report = compute.band(own, BandOptions(samples=16))
     assert np.isfinite(report.band["screw_torque"].median)
 
 
@@ -81,10 +80,10 @@ def test_the_cause_named_is_the_one_that_varies():
     told = {"ball_force": {"law": "proportional", "share_of_load": 0.0076}}  # so that no maker is drawn
     found = case(model={"friction": {"law": "run-in", "boundary_friction_coefficient": "0.12 ± 0.06"}, **told})
     found = dataclasses.replace(found, uncertain={**found.uncertain, "preload": bs.Normal(3000.0, 3.0)})
-    report = band.band(found, BandOptions(samples=1024, only_given=True))
+    report = compute.band(found, BandOptions(samples=1024, only_given=True))
     assert report.band.narrowing is not None
     assert report.band.narrowing.name == "friction.boundary_friction_coefficient"
-    few = band.band(found, BandOptions(samples=64, only_given=True))
+    few = compute.band(found, BandOptions(samples=64, only_given=True))
     assert few.band.narrowing is None
 
 
@@ -93,12 +92,12 @@ def test_the_cause_named_is_the_one_that_varies():
 def test_a_band_in_the_cold_holds_both_tracks(celsius):
     """Where the model is outside its validity the other track is, too: it is drawn all the same."""
     found = case(lubricant={"grade": "ISO VG 100", "temperature": f"{celsius} degC"})
-    report = band.band(found, BandOptions(samples=256))
+    report = compute.band(found, BandOptions(samples=256))
     assert "inlet" in report.band.alternatives
     both, given = report.band["screw_torque"].both, report.band["screw_torque"].value
     at = {"axial_load": found.operation.axial_load, "screw_speed": found.operation.screw_speed}
     flooded = float(found.model.in_full_bath(found.screw, found.lubricant, **at).screw_torque)
     assert both.low < given < both.high
     assert both.low < flooded < both.high
-    said = {record.id: record for record in documents.verdicts(found, report)}
+    said = {record.id: record for record in document.verdicts(found, report)}
     assert ("band.flooded" in said) == (flooded > 1.1 * given)

@@ -2,12 +2,12 @@
 
 import pytest
 
-from ballscrew.basis.output import sheet as sheets
+from ballscrew.basis.output.sheet import document
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.compare import compute as documents
+from ballscrew.questions.compare import compute
 from ballscrew.questions.compare.compute import ByRules, Compared, ComparedLaw, ComparedModel, comparison
 from ballscrew.questions.compare.response import Compare
 from ballscrew.questions.compare.sheet import sheet
@@ -26,7 +26,7 @@ def compared():
 
 def test_every_number_of_a_model_is_on_every_face(compared):
     case, found = compared
-    answer = documents.document(case, found)
+    answer = compute.document(case, found)
     words = terminal.text(sheet(case, found))
     schema = declared.schema(Compared).model_json_schema()["$defs"]
     for name, quantity in quantities_of(ComparedModel).items():
@@ -41,14 +41,14 @@ def test_every_number_of_a_model_is_on_every_face(compared):
 
 
 def test_every_number_has_a_unit(compared):
-    answer = documents.document(*compared)
+    answer = compute.document(*compared)
     parts = (answer["case"], *answer["laws"], *answer["rules"], answer["of_balls"])
     assert [path for part in parts for path in without_unit(part, answer["units"])] == []
     assert answer["units"]["drag_torque"] == "N m"
 
 
 def test_a_law_has_its_slot_and_what_a_model_has(compared):
-    answer = documents.document(*compared)
+    answer = compute.document(*compared)
     assert answer["laws"][0].keys() == declared.parts_of(ComparedLaw).keys()
     assert answer["laws"][0].keys() - answer["models"][0].keys() == {"slot", "counts"}
 
@@ -57,8 +57,8 @@ def test_a_law_has_its_slot_and_what_a_model_has(compared):
 def test_answers_are_valid_by_their_schema(example):
     case = case_file.load(SERVICE.parent / example)
     compared = comparison(case)
-    found = documents.document(case, compared)
-    Compare.model_validate({**found, "sheet": sheets.document(sheet(case, compared))})
+    found = compute.document(case, compared)
+    Compare.model_validate({**found, "sheet": document(sheet(case, compared))})
     assert ("of_balls" in found) == (example == "service.toml")
 
 

@@ -10,18 +10,18 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from ballscrew.evidence.papers import olaru2005 as paper
-from ballscrew.questions.reproduce import ball_figure as ball
+from ballscrew.evidence.papers import olaru2005
+from ballscrew.questions.reproduce import ball_figure
 from ballscrew.questions.reproduce import figure as figures
 from ballscrew.questions.shared import charts
 
-PLOTS = {plot.name: plot for plot in (*ball.PLOTS, *figures.PLOTS)}
+PLOTS = {plot.name: plot for plot in (*ball_figure.PLOTS, *figures.PLOTS)}
 
 
 @pytest.fixture(scope="module")
 def sources():
-    data, results = paper.curves(), ball.drawn_results()
-    return {name: results if plot in ball.PLOTS else data for name, plot in PLOTS.items()}
+    data, results = olaru2005.curves(), ball_figure.drawn_results()
+    return {name: results if plot in ball_figure.PLOTS else data for name, plot in PLOTS.items()}
 
 
 @pytest.fixture(scope="module", params=PLOTS)
@@ -139,7 +139,7 @@ def test_skid_is_shaded(sources):
 
 def test_forces_and_moments_of_the_drawings_balance(sources):
     for result in sources["fig2_forces_on_ball"].values():
-        for arrows in (ball.forces(result), ball.moments(result)):
+        for arrows in (ball_figure.forces(result), ball_figure.moments(result)):
             values = [arrow.value for arrow in arrows]
             assert sum(values) == pytest.approx(0, abs=1e-12 * max(map(abs, values)) + 1e-13)
 

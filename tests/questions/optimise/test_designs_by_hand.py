@@ -13,11 +13,19 @@ from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.optimise import compute
-from ballscrew.questions.optimise.design_model import DesignModel, Sampled, _quantile, _sampled
-from ballscrew.questions.optimise.design_space import VARIABLES, SearchOptions, design_space, makeable_bounds
+from ballscrew.questions.optimise.compute import _sound, spread
+from ballscrew.questions.optimise.design_model import (
+    VARIABLES,
+    DesignModel,
+    Sampled,
+    SearchOptions,
+    _quantile,
+    _sampled,
+    design_space,
+    makeable_bounds,
+)
 from ballscrew.questions.optimise.designs import Designs
 from ballscrew.questions.optimise.need_schema import json_schema
-from ballscrew.questions.optimise.search import _sound, spread
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.requirements import Requirements
 

@@ -14,20 +14,16 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Sheet
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.faces.sheets import files as sheet_files
-from ballscrew.faces.sheets import terminal, to_file
+from ballscrew.faces.sheets import files, terminal, to_file
 from ballscrew.physics.equations import geometry
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.optimise import compute
-from ballscrew.questions.optimise import search as searches
 from ballscrew.questions.optimise.answer import document
-from ballscrew.questions.optimise.design_model import DesignModel
-from ballscrew.questions.optimise.design_space import design_space, makeable_ratios
+from ballscrew.questions.optimise.design_model import DesignModel, design_space, makeable_ratios
 from ballscrew.questions.optimise.sheet import cost, of_optimisation, sheet
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.need import need_of
-from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.select.pareto import front
+from ballscrew.questions.select.requirements import OBJECTIVES, front
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
@@ -114,7 +110,7 @@ def test_the_search_finds_a_known_front():
         costs = np.column_stack([x[:, 0] ** 2 + x[:, 1] ** 2, (x[:, 0] - 2) ** 2 + x[:, 1] ** 2])
         return costs, (1 - x.sum(axis=1))[:, np.newaxis]
 
-    found = searches.search(
+    found = compute.search(
         evaluate, np.array([-1.0, -1.0]), np.array([3.0, 3.0]), population=40, generations=60, seed=1
     )
     # by Lagrange on x + y = 1 from x = 1/2 to 1, and on y = 0 from there to 2
@@ -134,7 +130,7 @@ def test_a_bad_number_never_wins():
     def evaluate(x):
         return np.where(x < 0.5, np.nan, x), np.zeros((len(x), 0))
 
-    found = searches.search(evaluate, np.zeros(1), np.ones(1), population=16, generations=20, seed=0)
+    found = compute.search(evaluate, np.zeros(1), np.ones(1), population=16, generations=20, seed=0)
     assert found.costs.min() == pytest.approx(0.5, abs=0.01)
 
 
@@ -177,7 +173,7 @@ def test_the_front_beats_random_search_and_its_members_are_public(ballscrew, tmp
     assert len(found.members) == 3
     assert all(each.holds and each.valid for each in found.members)
     assert max(found.largest_change.values()) < 1e-6  # the last generations have the bodies of the full model
-    table = sheet_files.rows_of(of_optimisation(found.members))
+    table = files.rows_of(of_optimisation(found.members))
     headings = dict(zip(table.headings, table.rows[1], strict=True))
     assert headings[units.heading(OBJECTIVES["loss"].quantity)] == pytest.approx(found.members[1].objectives["loss"])
     assert units.heading(OBJECTIVES["price_index"].quantity) not in headings
@@ -250,7 +246,7 @@ def test_without_pymoo_a_fault_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pymoo.core.problem", None)
     with pytest.raises(InputError, match=r'pip install "ballscrew\[optimise\]"'):
         # where a search begins, without the screws that it would need
-        searches._pymoo()
+        compute._pymoo()
 
 
 @pytest.mark.slow
@@ -262,7 +258,7 @@ def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     assert found.members == []
     assert "no design within the bounds passes all checks" in terminal.text(sheet(found))
     assert json.loads(json.dumps(plain(document(found))))["candidates"] == []
-    sheet_files.write(tmp_path / "empty.csv", Sheet("", [of_optimisation(found.members)]))
+    files.write(tmp_path / "empty.csv", Sheet("", [of_optimisation(found.members)]))
     to_file.write(tmp_path / "empty.svg", sheet(found))
 
 
@@ -291,7 +287,7 @@ def test_twelve_thousand_designs_take_five_seconds():
     """Once the model is recorded and compiled, on a machine that does nothing else; the double nut is the slower."""
     _, space, model = model_of(NEED, engine="compiled")
     start = time.perf_counter()
-    found = searches.search(model.costs, space.lower, space.upper, population=200, generations=60, seed=0)
+    found = compute.search(model.costs, space.lower, space.upper, population=200, generations=60, seed=0)
     assert found.evaluations == 12_000
     assert time.perf_counter() - start < 5
 

@@ -12,10 +12,9 @@ from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.moving_balls.friction_states import work_share
-from ballscrew.questions.reversal import compute
-from ballscrew.questions.reversal.compute import ReversalResults, document
-from ballscrew.questions.reversal.options import ReversalOptions
-from ballscrew.questions.reversal.sheet import sheet
+from ballscrew.questions.reversal import answer
+from ballscrew.questions.reversal.answer import ReversalResults, document, sheet
+from ballscrew.questions.reversal.question import ReversalOptions
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
@@ -28,7 +27,7 @@ CASE = case_file.load(EXAMPLE, [])
 @pytest.fixture(scope="module")
 def report():
     """Of the closed form, whose helix winds up within 10° and whose balls close up within 30°."""
-    return compute.of(CASE, closed_form(), ReversalOptions(inertia=2e-3))
+    return answer.of(CASE, closed_form(), ReversalOptions(inertia=2e-3))
 
 
 def by_share(places):
@@ -38,7 +37,7 @@ def by_share(places):
 def test_places_of_each_mechanism(report):
     """Straight lines: a share s of the swing is back at s of the angle; balls that press later begin with a half."""
     found = {name: by_share(places) for name, places in report.swing_by_mechanism.items()}
-    for share in compute.SHARES:
+    for share in answer.SHARES:
         for name, within in (("spin_and_curvature", 0.04), ("helix", 10.0)):
             place = found[name][share]
             assert math.degrees(place.screw_angle) == pytest.approx(share * within, rel=1e-3)
@@ -58,7 +57,7 @@ def test_places_of_all_friction(report):
 
 def test_from_rest():
     """From zero, and in half the angle."""
-    rested = compute.of(CASE, closed_form(from_rest=True), ReversalOptions(from_rest=True))
+    rested = answer.of(CASE, closed_form(from_rest=True), ReversalOptions(from_rest=True))
     place = by_share(rested.swing_by_mechanism["helix"])[0.9]
     assert math.degrees(place.screw_angle) == pytest.approx(0.9 * 5, rel=1e-3)
     assert sheet(rested).title.startswith("Friction from rest")
@@ -66,7 +65,7 @@ def test_from_rest():
 
 
 def test_a_travel_that_is_too_short():
-    short = compute.of(CASE, closed_form(travel=1e-4), ReversalOptions())
+    short = answer.of(CASE, closed_form(travel=1e-4), ReversalOptions())
     assert math.isnan(by_share(short.swing)[0.98].screw_angle)
     assert short.verdicts[0].text == "after a reversal less than 90% of the friction is back within 100 µm"
     assert "–" in terminal.text(sheet(short))
@@ -83,7 +82,7 @@ def test_elements_are_those_that_are_there(report):
 def test_a_curve_that_one_element_holds():
     """Of rolling and of contacts that wind up over straight lines, and a travel too short for tracking."""
     steady = {"rolling": 0.05, "spin_and_curvature": 0.06}
-    found = compute.of(CASE, closed_form(steady=steady, travel=5e-5), ReversalOptions())
+    found = answer.of(CASE, closed_form(steady=steady, travel=5e-5), ReversalOptions())
     assert [len(fit.elements) for fit in found.slip_elements] == [1]
     assert found.verdicts[-1].text == "one Maxwell-slip element is off by up to 0%"
     assert "reversal.one_stiffness" not in [one.id for one in found.verdicts]
@@ -100,18 +99,18 @@ def test_the_hypothesis_is_said(report):
     assert "EMPS" in terminal.text(sheet(report))
     assert "EMPS" in str(report_blocks.blocks(sheet(report), "reversal"))
     held = dataclasses.replace(closed_form(), displacement=(np.zeros(501),))
-    alone = compute.of(CASE, held, ReversalOptions())
+    alone = answer.of(CASE, held, ReversalOptions())
     assert "reversal.hypothesis" not in [one.id for one in alone.warnings]
 
 
 def test_a_part_that_is_not_there():
-    without = compute.of(CASE, closed_form(steady={**STEADY, "helix": 0.0, "losses": 1e-17}), ReversalOptions())
+    without = answer.of(CASE, closed_form(steady={**STEADY, "helix": 0.0, "losses": 1e-17}), ReversalOptions())
     assert without.swing_by_mechanism.keys() == {"rolling", "spin_and_curvature", "ball_to_ball"}
 
 
 def test_bristles_that_are_far_off_are_said(report):
     assert [one.id for one in report.warnings] == ["reversal.hypothesis", "reversal.first_range"]
-    off = compute.of(CASE, dataclasses.replace(closed_form(), bristles_over_model=0.63), ReversalOptions())
+    off = answer.of(CASE, dataclasses.replace(closed_form(), bristles_over_model=0.63), ReversalOptions())
     said = {one.id: one for one in off.warnings}["reversal.bristles"]
     assert said.value == 0.63
     assert "63%" in said.text
@@ -123,7 +122,7 @@ def test_a_part_goes_to_where_its_curve_ends():
     moved = {**found.contributions}
     moved["helix"] = 1.1 * found.contributions["helix"]
     moved["spin_and_curvature"] = found.screw_torque - sum(v for n, v in moved.items() if n != "spin_and_curvature")
-    other = compute.of(CASE, dataclasses.replace(found, contributions=moved), ReversalOptions())
+    other = answer.of(CASE, dataclasses.replace(found, contributions=moved), ReversalOptions())
     place = by_share(other.swing_by_mechanism["helix"])[0.9]
     assert math.degrees(place.screw_angle) == pytest.approx(9, rel=1e-3)
 
@@ -135,7 +134,7 @@ def test_every_number_is_in_the_document(report):
     assert results["contributions"]["helix"][-1] == STEADY["helix"]
     assert results["lugre"]["model"]["micro_damping"] == report.lugre.model.micro_damping > 0
     assert results["slip_elements"][1]["elements"][1]["slip_torque"] == pytest.approx(0.1, rel=1e-4)
-    assert [one["share"] for one in results["swing"]] == list(compute.SHARES)
+    assert [one["share"] for one in results["swing"]] == list(answer.SHARES)
     assert list(without_unit(results, found["units"])) == []
     assert found["units"]["slip_elements"]["elements"]["stiffness"] == "N m/rad"
     identities = [(one["id"], one["subject"]) for one in (*found["warnings"], *found["verdicts"])]
@@ -179,7 +178,7 @@ def test_the_viscous_slope_is_that_of_a_run(speed):
         found = case.model(case.screw, case.lubricant, axial_load=0.0, screw_speed=rpm * math.pi / 30)
         rolling.append(found.contributions["hydrodynamic_rolling"] + found.contributions["elastic_hysteresis"])
     slope = (rolling[1] - rolling[0]) / (20 * math.pi / 30)
-    model = compute.of(case, closed_form(), ReversalOptions()).lugre.model
+    model = answer.of(case, closed_form(), ReversalOptions()).lugre.model
     # the chord of a curve over a tenth either way, against one over a hundredth
     assert model.viscous_slope == pytest.approx(slope, rel=5e-3)
     at_once = STEADY["rolling"] + STEADY["losses"] + STEADY["ball_to_ball"] / 2
@@ -189,14 +188,14 @@ def test_the_viscous_slope_is_that_of_a_run(speed):
 def test_a_screw_at_rest_is_refused():
     resting = case_file.load(EXAMPLE, ["operation.screw_speed=0 rpm"])
     with pytest.raises(InputError) as error:
-        compute.reversal(resting, ReversalOptions())
+        answer.reversal(resting, ReversalOptions())
     assert error.value.faults[0].where == "operation.screw_speed"
 
 
 @pytest.mark.slow
 def test_a_computed_reversal():
     """That of a case: what it goes to is the torque of a run, and the helix comes back hundreds of times later."""
-    found = compute.reversal(CASE, ReversalOptions())
+    found = answer.reversal(CASE, ReversalOptions())
     run = CASE.model(CASE.screw, CASE.lubricant, axial_load=0.0, screw_speed=float(CASE.operation.screw_speed))
     assert float(found.reversal.steady_torque) == pytest.approx(float(run.screw_torque), rel=1e-12)
     helix, spin = (by_share(found.swing_by_mechanism[name])[0.9] for name in ("helix", "spin_and_curvature"))

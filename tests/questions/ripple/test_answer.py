@@ -21,9 +21,8 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
-from ballscrew.questions.ripple.compute import ALL, RippleResults, defects_of, document, given_of, ripple_of
-from ballscrew.questions.ripple.options import RippleOptions
-from ballscrew.questions.ripple.sheet import sheet
+from ballscrew.questions.ripple.answer import ALL, RippleResults, defects_of, document, given_of, ripple_of, sheet
+from ballscrew.questions.ripple.question import RippleOptions
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
 

@@ -5,9 +5,8 @@ import pytest
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.run import answer as documents
 from ballscrew.questions.run import compute
-from ballscrew.questions.run.answer import RunResults, VendorRows
+from ballscrew.questions.run.answer import RunResults, VendorRows, document
 from ballscrew.questions.run.compute import OF_ONE_BALL
 from ballscrew.questions.run.response import Document
 from ballscrew.questions.run.sheet import SHOWN, meaning, sheet
@@ -32,7 +31,7 @@ def found(request):
 
 
 def test_every_number_is_on_every_face(found):
-    answer, described = plain(documents.document(found)), declared.schema(RunResults).model_json_schema()["properties"]
+    answer, described = plain(document(found)), declared.schema(RunResults).model_json_schema()["properties"]
     results, units = answer["results"], answer["units"]
     for name, quantity in found.quantities.items():
         if name in ("axial_load", "screw_speed"):  # inputs
@@ -54,11 +53,11 @@ def test_the_first_numbers_are_on_the_terminal(found):
 
 
 def test_a_document_is_valid_by_its_schema(found):
-    Document.model_validate(plain(documents.document(found)))
+    Document.model_validate(plain(document(found)))
 
 
 def test_every_number_has_a_unit(found):
-    answer = plain(documents.document(found))
+    answer = plain(document(found))
     signs = {
         f"quadrants.{name}.{sign}" for name in answer["results"]["quadrants"] for sign in ("load_sign", "speed_sign")
     }

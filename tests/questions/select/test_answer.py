@@ -7,10 +7,17 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.faces.sheets import files
-from ballscrew.questions.select import answer as documents
-from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, OneObjective
+from ballscrew.questions.select.answer import (
+    BrakeOfNeed,
+    MotorTorque,
+    OfMotion,
+    OneCandidate,
+    OneObjective,
+    document,
+    plan_document,
+)
 from ballscrew.questions.select.compute import Plan, plan
-from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.select.requirements import OBJECTIVES
 from ballscrew.questions.select.response import Candidate, Select
 from ballscrew.questions.select.sheet import beside_rules, of_selection
 from ballscrew.questions.shared import declared
@@ -30,7 +37,7 @@ def found(request):
 
 @pytest.mark.slow
 def test_the_numbers_compared_are_on_every_face(found):
-    answer, headings = documents.document(found), files.rows_of(of_selection(found.ranked)).headings
+    answer, headings = document(found), files.rows_of(of_selection(found.ranked)).headings
     schema = declared.schema(OneCandidate).model_json_schema()["$defs"]["Objectives"]["properties"]
     for name, objective in OBJECTIVES.items():
         quantity = objective.quantity
@@ -47,7 +54,7 @@ def test_the_numbers_compared_are_on_every_face(found):
 @pytest.mark.slow
 def test_torques_of_motor_and_brake_are_on_every_face():
     found = bs.select(MOVING)
-    answer, headings = documents.document(found), " ".join(files.rows_of(of_selection(found.ranked)).headings)
+    answer, headings = document(found), " ".join(files.rows_of(of_selection(found.ranked)).headings)
     candidate, schema = answer["candidates"][0], Candidate.model_json_schema()["$defs"]
     for part, cls, word in (("motor_torque", MotorTorque, "motor"), ("brake", BrakeOfNeed, "brake")):
         for name, quantity in quantities_of(cls).items():
@@ -83,20 +90,20 @@ def test_the_best_stands_beside_the_rules_of_makers():
 
 
 def test_answers_are_valid_by_their_schema(found):
-    answer = documents.document(found)
+    answer = document(found)
     Select.model_validate({**answer, "sheet": {}})
     assert ("duty" in answer["candidates"][0]) == found.need.moves
 
 
 def test_every_number_has_a_unit(found):
-    answer = documents.document(found)
+    answer = document(found)
     (candidate,) = answer["candidates"]
     parts = [*declared.parts_of(OneCandidate), *(declared.parts_of(OfMotion) if found.need.moves else ())]
     assert list(without_unit({name: candidate[name] for name in parts if name != "case"}, answer["units"])) == []
 
 
 def test_a_plan_is_valid_by_its_schema():
-    answer = documents.plan_document(plan(POINT))
+    answer = plan_document(plan(POINT))
     declared.schema(Plan).model_validate(answer)
     assert answer["unasked"][0].keys() == {"input", "checks"}
 

@@ -17,10 +17,8 @@ from ballscrew.questions.select.candidates import Candidate, Variant
 from ballscrew.questions.select.compute import Selection, ranked
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import with_motion
-from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.select.pareto import front
 from ballscrew.questions.select.requirement_checks import kept_preload, preload_used
-from ballscrew.questions.select.requirements import Requirements
+from ballscrew.questions.select.requirements import OBJECTIVES, Requirements, front
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 HOUR = 3600.0

@@ -16,14 +16,13 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli.progress import progress
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.select import case_text
-from ballscrew.questions.select import compute as selection
+from ballscrew.questions.select import case_text, compute
 from ballscrew.questions.select.answer import document, verdict
 from ballscrew.questions.select.candidates import BY_LOADS, NEARLY, USUAL_LIFE
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import OF_MOTION
-from ballscrew.questions.select.pareto import front
 from ballscrew.questions.select.requirement_checks import kept_preload
+from ballscrew.questions.select.requirements import front
 from ballscrew.questions.select.sheet import cost, sheet
 from support.commands import ROOT
 from support.pictures import drawn
@@ -480,7 +479,7 @@ def test_without_a_life_what_lives_short_is_ranked_last():
 
 
 def test_what_it_costs_and_leaves_open_is_said_before_it_starts(monkeypatch, capsys):
-    planned = selection.plan({**MOVING, "rows": ""})
+    planned = compute.plan({**MOVING, "rows": ""})
     said = cost(planned)
     assert said.startswith(f"candidates: {planned.candidates}, ")
     assert "s of a processor at most" in said

@@ -8,9 +8,8 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.engines import KNOWN
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.shared import declared
-from ballscrew.questions.sweep import answer as documents
 from ballscrew.questions.sweep import band, compute
-from ballscrew.questions.sweep.answer import SweepResults
+from ballscrew.questions.sweep.answer import SweepResults, document
 from support.answers import undescribed
 from support.commands import ROOT
 from support.structures import forget_structures
@@ -25,7 +24,7 @@ def test_every_output_is_in_the_document_as_it_is_in_the_dataset(banded):
     dataset = compute.sweep(CASE, plan)
     if banded:
         dataset = band.with_band(CASE, plan, dataset, BandOptions(samples=16))
-    answer = plain(documents.document(CASE, plan, dataset))
+    answer = plain(document(CASE, plan, dataset))
     declared.schema(SweepResults).model_validate({name: answer[name] for name in ("axes", "outputs")})
     assert list(answer["axes"]) == ["axial_load", "screw_speed"]
     for name in ("efficiency", "screw_torque", "valid"):

@@ -4,14 +4,14 @@ import pytest
 
 from ballscrew.faces.report.validation import NOT_MEASURED, report
 from ballscrew.questions.shared.report_blocks import Bullets, Picture, Table
-from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate.summary import summary
+from ballscrew.questions.validate import compute
+from ballscrew.questions.validate.sheet import summary
 
 
 @pytest.fixture(scope="module")
 def computed():
-    request = validation.request(["rexroth-double-nut", "thk-jis", "hiwin-ratings"])
-    found = [entries for entries, _ in validation.evaluate(request)]
+    request = compute.request(["rexroth-double-nut", "thk-jis", "hiwin-ratings"])
+    found = [entries for entries, _ in compute.evaluate(request)]
     table, _ = summary(request, found)
     return found, table, report(request, found, table)
 

@@ -7,19 +7,18 @@ from ballscrew.evidence.validation.entries import Band, Point, exponents
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.calibrations import calibrations
-from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate import summary as summaries
+from ballscrew.questions.validate import compute, sheet
 from ballscrew.questions.validate.sheet import of_makers
 
 
 @pytest.fixture(scope="module")
 def asked():
-    return validation.request(["rexroth-single-nut", "thk-jis", "xjtu", "support-bearings", "hiwin-ratings"])
+    return compute.request(["rexroth-single-nut", "thk-jis", "xjtu", "support-bearings", "hiwin-ratings"])
 
 
 @pytest.fixture(scope="module")
 def table(asked):
-    rows, notes = summaries.summary(asked)
+    rows, notes = sheet.summary(asked)
     assert notes == []
     return rows
 
@@ -65,7 +64,7 @@ def test_lines_are_of_torques_of_known_nuts(table):
 
 @pytest.mark.slow
 def test_lines_have_the_statistics_of_their_rows(table, asked):
-    (entries, _), *_ = validation.evaluate(asked)
+    (entries, _), *_ = compute.evaluate(asked)
     single = {row.name: row for row in table if row.maker == "Rexroth"}
     for entry in entries:
         row = single[entry.calibration or "reference"]
@@ -90,8 +89,8 @@ def test_what_was_chosen_on_rows_is_said(table):
     assert all("rexroth-2006" not in word for word in chosen["Rexroth", "reference"])
     assert chosen["Rexroth", "jis"] == chosen["THK", "reference"] == chosen["THK", "rexroth-2006"] == []
     assert "jis" in chosen["THK", "jis"][0]
-    other, _ = summaries.summary(validation.request(["rexroth-double-nut"], model="olaru2005"))
-    assert [(row.name, bool(row.chosen_on)) for row in other if row.kind != summaries.RULE] == [("olaru2005", False)]
+    other, _ = sheet.summary(compute.request(["rexroth-double-nut"], model="olaru2005"))
+    assert [(row.name, bool(row.chosen_on)) for row in other if row.kind != sheet.RULE] == [("olaru2005", False)]
 
 
 def test_sets_declare_what_was_chosen_on_them():
@@ -107,8 +106,8 @@ def test_sets_declare_what_was_chosen_on_them():
 
 @pytest.mark.slow
 def test_entries_computed_before_are_used(asked, table):
-    found = [entries for entries, _ in validation.evaluate(asked)]
-    again, _ = summaries.summary(asked, found)
+    found = [entries for entries, _ in compute.evaluate(asked)]
+    again, _ = sheet.summary(asked, found)
     assert [(row.name, row.mean_ratio) for row in again] == [(row.name, row.mean_ratio) for row in table]
 
 

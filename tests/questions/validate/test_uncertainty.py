@@ -14,7 +14,7 @@ from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.calibrations import calibrated, calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.band import compute
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate.compute import evaluate, request, shipped_rows
 from ballscrew.questions.validate.uncertainty import SAMPLES, with_bands
 
 REFERENCE = FrictionModel.reference()
@@ -22,7 +22,7 @@ STOCK = SETS["hiwin-stock"]
 
 
 def entry(names, model=REFERENCE, calibration=None):
-    rows = [values for values in validation.shipped_rows(STOCK) if values["name"] in names]
+    rows = [values for values in shipped_rows(STOCK) if values["name"] in names]
     points = [point for values in rows for point in STOCK.evaluate(model, values, STOCK.conditions)]
     return Entry(data=STOCK, model=model, calibration=calibration, points=points)
 
@@ -76,8 +76,8 @@ def test_shares_and_widths_by_hand():
 
 @pytest.mark.slow
 def test_every_no_load_torque_of_a_known_nut_has_a_band():
-    asked = validation.request(["thk-jis", "xjtu"])
-    for entries, _ in validation.evaluate(asked):
+    asked = request(["thk-jis", "xjtu"])
+    for entries, _ in evaluate(asked):
         for one in entries:
             has = {point.in_uncertainty_band is not None for point in one.points}
             assert has == {not one.data.alternatives}

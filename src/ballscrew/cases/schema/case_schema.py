@@ -35,7 +35,7 @@ from ballscrew.physics.friction.calibrations import BY_MAKE, calibrations
 from ballscrew.physics.friction.law_names import LAWS as LAWS
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel, presets
-from ballscrew.physics.laws.outside import name_of as outside_name
+from ballscrew.physics.laws.outside import name_of
 from ballscrew.physics.sizing.installation import Installation, Limits
 
 MODELS = presets()
@@ -71,7 +71,7 @@ def places_of(field: str) -> list[str]:
 def name_of_law(slot: str, law: Any) -> str:
     """Name of a law in the case file: one from outside ``module:name``."""
     named = (name for name, known in _SLOTS[slot].items() if known is law or known is type(law))
-    return next(named, None) or outside_name(law)
+    return next(named, None) or name_of(law)
 
 
 @functools.cache

@@ -16,7 +16,7 @@ import importlib
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels import kernel
 from ballscrew.compiler.kernels.emission import SIGNATURE
 
 #: Doubles of a vector of 128 bits.
@@ -54,9 +54,9 @@ def module_of(parts: Sequence[Part]) -> bytes:
         one = llvm.parse_assembly(_named(part))
         one.verify()
         whole.link_in(one)
-    machine = llvm.Target.from_triple(TRIPLE).create_target_machine(features=FEATURES, opt=kernels.CODE_OPTIMISATION)
+    machine = llvm.Target.from_triple(TRIPLE).create_target_machine(features=FEATURES, opt=kernel.CODE_OPTIMISATION)
     whole.triple = TRIPLE
-    kernels.optimise(whole, machine)
+    kernel.optimise(whole, machine)
     return _linked(machine.emit_object(whole), [part.name for part in parts])
 
 

@@ -22,10 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import as_array
-from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
-from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.kernel import Kernel, available, code_of
 from ballscrew.compiler.tracing.grid import Split, split
 from ballscrew.compiler.tracing.program import Program, Source, required_steps
 from ballscrew.compiler.tracing.reductions import Reduction, Stages, cut_at_reductions, reduced, sums_of
@@ -219,7 +218,7 @@ def _by_an_engine(
     stages, cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
     why = why_numpy(engine)
     try:
-        if engine != "numpy" and kernels.available():
+        if engine != "numpy" and available():
             text = _text(made_of, stages, cut)
             if engine or worth_compiling(cut.points, asked, text, anew=anew):
                 result = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, *how)
@@ -239,7 +238,7 @@ def _compiled(cut: CutByBall, text: str, kept_as: str | None, optimisation: int 
     with kept.making:
         cut_by_ball = kept.get(kept_as, _read)
         if cut_by_ball is None:
-            machine_code = kernels.code_of(text, optimisation)
+            machine_code = code_of(text, optimisation)
             if cut.can_be_written:
                 keep(kept_as, cut.header, machine_code)
             cut_by_ball = kept.add(kept_as, cut.with_kernel(Kernel(machine_code, cut.sources)))

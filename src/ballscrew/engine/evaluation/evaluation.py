@@ -18,11 +18,10 @@ from ballscrew.basis.errors import (
     InputError,
     raise_if_any,
 )
-from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import ALIGNMENT, aligned_array
 from ballscrew.compiler.kernels.chain import LANES
 from ballscrew.compiler.kernels.emission import UnknownOperationError, lanes_for
-from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.kernel import LARGEST_CACHED, Kernel
 from ballscrew.compiler.kernels.watched import WatchedKernel
 from ballscrew.compiler.tracing.grid import Split, inner_axes, rectangles
 from ballscrew.compiler.tracing.program import Program, Source
@@ -367,7 +366,7 @@ class _Points(_Kernels):
         inputs = [np.ascontiguousarray(points[name], dtype=float) for name in plan.varying]
         here = [values[part.start - first : part.stop - first] for values in results]
         count = part.stop - part.start
-        large = sum(values.nbytes for values in results) > kernels.LARGEST_CACHED
+        large = sum(values.nbytes for values in results) > LARGEST_CACHED
         if result and self.watched is not None:
             seen = dict(zip(plan.varying, self.watched(count, inputs, here, past_cache=large), strict=True))
             for name, noted in result.items():

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels import kernel
 from ballscrew.compiler.kernels.emission import FEWEST_LANES, UnknownOperationError, kernel_text
 from ballscrew.compiler.kernels.kernel import Kernel
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError
@@ -243,7 +243,7 @@ class _Kept:
             if name in self._found:
                 self._found.move_to_end(name)
                 return self._found[name]
-            held = kernels.kept(name)
+            held = kernel.kept(name)
             if held is None:
                 return None
             try:
@@ -277,7 +277,7 @@ def name_of(kind: str, subject: Configuration, outputs: Sequence[str], names: Se
 
     So it is without a compiler, for laws from outside, and where a function of the package was replaced.
     """
-    if not kernels.available() or not is_as_imported():
+    if not kernel.available() or not is_as_imported():
         return None
     key = structure_key(subject, outputs, names)
     if key is None:
@@ -352,7 +352,7 @@ class Structure:
             hashlib.sha256(f"{text}\n{program.text}".encode()).hexdigest(),
         )
         level = 0 if len(program.steps) > MOST_STEPS_OPTIMISED else None
-        return layout, kernels.code_of(text, level)
+        return layout, kernel.code_of(text, level)
 
 
 def keep(name: str, header: Mapping[str, Any], machine_code: bytes) -> None:
@@ -363,7 +363,7 @@ def keep(name: str, header: Mapping[str, Any], machine_code: bytes) -> None:
     if not stands_as_imported():
         return
     with contextlib.suppress(TypeError):  # what JSON does not know, of a law's own making
-        kernels.keep(name, json.dumps(header, default=_plain).encode(), machine_code)
+        kernel.keep(name, json.dumps(header, default=_plain).encode(), machine_code)
 
 
 def _plain(value: Any) -> Any:

@@ -30,7 +30,7 @@ from ballscrew.evidence.moving_logs.columns import (
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.files.tables.headings import NO_COLUMN
 from ballscrew.files.tables.sheets import Record, unreadable
-from ballscrew.files.torque_logs import columns as torque_columns
+from ballscrew.files.torque_logs import columns
 from ballscrew.files.torque_logs.columns import Layout
 from ballscrew.files.torque_logs.matlab_files import is_matlab, variables
 from ballscrew.files.torque_logs.motion import Floats
@@ -126,10 +126,10 @@ def _is_steady(path: Path, records: Sequence[Record]) -> bool:
 
     The load is among them: a file that could be of a moving axis is one of no load only if a person says so.
     """
-    if not any(torque_columns.is_load(cell) for record in records[: torque_columns.WITHIN] for cell in record.cells):
+    if not any(columns.is_load(cell) for record in records[: columns.WITHIN] for cell in record.cells):
         return False
     try:
-        torque_columns.layout(path, records, {})
+        columns.layout(path, records, {})
     except InputError as error:
         return all(fault.id != NO_COLUMN for fault in error.faults)
     return True

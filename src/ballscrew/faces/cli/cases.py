@@ -107,16 +107,16 @@ def run(
 
 def _operating_point(case: Case, self_heating: bool) -> Answer:
     from ballscrew.questions.run.answer import document
-    from ballscrew.questions.run.compute import run as run_case
+    from ballscrew.questions.run.compute import run
     from ballscrew.questions.run.sheet import sheet
-    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
+    from ballscrew.questions.warm_up.answer import with_self_heating
 
     heating = None
     if self_heating:
         from ballscrew.questions.warm_up import self_heating as studies
 
         heating = studies.self_heating(case)
-    result = run_case(case if heating is None else heating.warm)
+    result = run(case if heating is None else heating.warm)
     records = () if heating is None else heating.records
     return Answer(sheet(result, heating=records), lambda: with_self_heating(document(result), heating))
 
@@ -124,15 +124,15 @@ def _operating_point(case: Case, self_heating: bool) -> Answer:
 def _run_rows(cases: OfRows[RowCase], output: Output, to: Path | None, *, keep_going: bool) -> None:
     """Run each row: one line each, and a table in a file."""
     from ballscrew.questions.run.answer import list_document
-    from ballscrew.questions.run.compute import run as run_case
+    from ballscrew.questions.run.compute import run
     from ballscrew.questions.run.sheet import of_rows
-    from ballscrew.questions.shared import every_row, row_tables
+    from ballscrew.questions.shared import every_row
 
     if to is not None:
-        row_tables.check_path(to)
+        every_row.check_path(to)
     work = {each.place: each for each in cases.found.values()}
     with progress("rows") as done:
-        results = every_row.each(work, lambda each: run_case(each.case), keep_going=keep_going, done=done)
+        results = every_row.each(work, lambda each: run(each.case), keep_going=keep_going, done=done)
     runs = {work[place].row.name: result for place, result in results.found.items()}
     _print_rows(Answer(of_rows(runs), lambda: list_document(runs), f"{len(runs)} screws"), output, to)
     print_notes_of_rows([*cases.notes, *results.notes], results.interrupted)
@@ -141,7 +141,7 @@ def _run_rows(cases: OfRows[RowCase], output: Output, to: Path | None, *, keep_g
 def _check_band(is_named: bool, options: BandOptions, to: Path | None, self_heating: bool) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for options without a band, and a picture that cannot be."""
     from ballscrew.basis.errors import Fault, InputError, raise_if_any
-    from ballscrew.questions.shared.chart_files import check_picture
+    from ballscrew.questions.shared.charts import check_picture
 
     values = {
         "--samples": options.samples,
@@ -168,33 +168,32 @@ def _band(case: Case, options: BandOptions, done: Done, *, has_picture: bool) ->
     """The band of a case."""
     from ballscrew.questions.band import compute
     from ballscrew.questions.band.document import document
-    from ballscrew.questions.band.sheet import sheet
-    from ballscrew.questions.band.tornado import tornado
-    from ballscrew.questions.run.compute import run as run_case
+    from ballscrew.questions.band.sheet import sheet, tornado
+    from ballscrew.questions.run.compute import run
 
     report = compute.band(case, options, done)
     curve, swings = None, None
     if has_picture:
         curve, swings = compute.curve(case, report, options, done), tornado(case, report)
     size = f"{report.band.count} samples of {len(report.inputs)} uncertain inputs"
-    return Answer(sheet(case, report, curve, swings), lambda: document(run_case(case), report), size)
+    return Answer(sheet(case, report, curve, swings), lambda: document(run(case), report), size)
 
 
 def _warm_band(case: Case, options: BandOptions, done: Done) -> Answer:
     """The band of a case as warm as it makes itself: temperature and preload by samples of its surroundings."""
     from ballscrew.questions.band import compute
+    from ballscrew.questions.band.compute import heat_samples
     from ballscrew.questions.band.document import document
-    from ballscrew.questions.band.heat_samples import heat_samples
     from ballscrew.questions.band.sheet import sheet
-    from ballscrew.questions.run.compute import run as run_case
+    from ballscrew.questions.run.compute import run
+    from ballscrew.questions.warm_up.answer import with_self_heating
     from ballscrew.questions.warm_up.self_heating import self_heating
-    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     heating = self_heating(case)
     report = compute.band(heating.warm, options, done, heat_samples(heating, only_given=options.only_given))
     return Answer(
         sheet(heating.warm, report, heating=heating.records),
-        lambda: with_self_heating(document(run_case(heating.warm), report), heating),
+        lambda: with_self_heating(document(run(heating.warm), report), heating),
     )
 
 
@@ -227,10 +226,9 @@ def check(
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.
     """
-    from ballscrew.questions.check.compute import Options, every_row, one
-    from ballscrew.questions.check.document import document, list_document
+    from ballscrew.questions.check.compute import Options, document, every_row, list_document, one
     from ballscrew.questions.check.sheet import of_rows, sheet
-    from ballscrew.questions.shared import row_tables
+    from ballscrew.questions.shared.every_row import check_path
 
     values = Options(given(vars(options)), **vars(case_options), self_heating=self_heating)
     check_rows(rows, row)
@@ -241,7 +239,7 @@ def check(
         output.print(sheet(screw), lambda: document(screw))
         return
     if to is not None:
-        row_tables.check_path(to)
+        check_path(to)
     with progress("rows") as done:
         chosen = screws.case if screws.row else screws.name
         results = every_row(chosen, rows, values, options.keep_going, row=screws.row, done=done)
@@ -329,10 +327,7 @@ def sweep(
     With --band each output has the ends of its band beside it: at each point those of ballscrew run --band there.
     """
     from ballscrew.faces.sheets.terminal import line_text
-    from ballscrew.questions.sweep import answer as documents
-    from ballscrew.questions.sweep import compute as studies
-    from ballscrew.questions.sweep import sheet as sheets
-    from ballscrew.questions.sweep import table as sweep_files
+    from ballscrew.questions.sweep import answer, compute, sheet, table
 
     check_rows(rows, row)
     _check_combination(options, output, rows, row, scheduler, self_heating=self_heating)
@@ -341,18 +336,18 @@ def sweep(
     else:
         cases = cases_of_rows(case, rows, row, case_options, keep_going)
         if row is None:
-            studies.check_store_options(to, verify=verify, trust=trust)
-            with studies.workers(scheduler, to):
+            compute.check_store_options(to, verify=verify, trust=trust)
+            with compute.workers(scheduler, to):
                 _sweep_rows(cases, options, to, keep_going=keep_going, verbose=verbose)
             return
         print_notes_of_rows(cases.notes, cases.interrupted)
         (loaded,) = (each.case for each in cases.found.values())
-    plan = studies.plan(loaded, options.vary, options.outputs, to, heats=self_heating, banded=options.is_banded)
+    plan = compute.plan(loaded, options.vary, options.outputs, to, heats=self_heating, banded=options.is_banded)
     is_text = to.suffix.lower() == ".csv" if to is not None else not (output.as_json or output.as_sheet)
-    plan = studies.with_flooded_torque(loaded, plan, as_table=is_text)
-    studies.check_store_options(to, verify=verify, trust=trust)
-    with _report_stop(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
-        dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
+    plan = compute.with_flooded_torque(loaded, plan, as_table=is_text)
+    compute.check_store_options(to, verify=verify, trust=trust)
+    with _report_stop(), compute.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
+        dataset = compute.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
         if options.is_banded:
             from ballscrew.questions.sweep.band import INNER, with_band  # only where there is a band
 
@@ -361,15 +356,15 @@ def sweep(
     if verbose:
         print_engine(dataset.attrs)
     if output.is_data:
-        document = functools.partial(documents.document, loaded, plan, dataset)
-        output.print(sheets.sheet(loaded, plan, dataset, to), document)
+        document = functools.partial(answer.document, loaded, plan, dataset)
+        output.print(sheet.sheet(loaded, plan, dataset, to), document)
     elif to is None:
-        sweep_files.write_csv(sys.stdout, dataset, plan)
+        table.write_csv(sys.stdout, dataset, plan)
     if to is not None:
-        if not studies.is_store(to):
-            sweep_files.write(dataset, plan, to)
-        output.note(f"{to}: {sheets.size(dataset, plan)}, model {loaded.model.label}")
-    for line in [*sheets.assumed(dataset), *sheets.warnings(loaded, plan, dataset, to)]:
+        if not compute.is_store(to):
+            table.write(dataset, plan, to)
+        output.note(f"{to}: {sheet.size(dataset, plan)}, model {loaded.model.label}")
+    for line in [*sheet.assumed(dataset), *sheet.warnings(loaded, plan, dataset, to)]:
         typer.echo(line_text(line), err=True)
 
 
@@ -408,19 +403,18 @@ def _sweep_rows(
 ) -> None:
     """Sweep all rows into one dataset."""
     from ballscrew.faces.sheets.terminal import line_text
-    from ballscrew.questions.sweep import rows as sweep_rows
-    from ballscrew.questions.sweep import table as sweep_files
+    from ballscrew.questions.sweep import table
     from ballscrew.questions.sweep.sheet import size, warnings
 
-    planned = sweep_rows.plans(cases.found, options.vary, options.outputs, to, keep_going)
+    planned = table.plans(cases.found, options.vary, options.outputs, to, keep_going)
     with progress("sweep") as done:
-        dataset, swept = sweep_rows.sweep(planned.found, to, keep_going=keep_going, done=done)
-    plan = sweep_rows.plan_of(planned.found)
+        dataset, swept = table.sweep(planned.found, to, keep_going=keep_going, done=done)
+    plan = table.plan_of(planned.found)
     if to is None:
-        sweep_files.write_csv(sys.stdout, dataset, plan)
+        table.write_csv(sys.stdout, dataset, plan)
     else:
-        sweep_files.write(dataset, plan, to)
-        typer.echo(f"{to}: {size(dataset, plan)}, {dataset.sizes[sweep_rows.SCREW]} screws")
+        table.write(dataset, plan, to)
+        typer.echo(f"{to}: {size(dataset, plan)}, {dataset.sizes[table.SCREW]} screws")
     for place, swept_row in swept.found.items():
         if verbose:
             print_engine(swept_row.attrs)

@@ -52,18 +52,18 @@ def show(
 ) -> None:
     """One row: what is listed, what follows from it, what was assumed."""
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.cases.screw_tables import catalogue as tables
+    from ballscrew.cases.screw_tables.catalogue import case_text, load, named, show_document
     from ballscrew.questions.catalogue import text
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
-    screws, notes = tables.load(rows, keep_going)
-    row = tables.named(screws, name, file=rows)
+    screws, notes = load(rows, keep_going)
+    row = named(screws, name, file=rows)
     print_notes_of_rows(notes)
     if as_case:
-        typer.echo(tables.case_text(row))
+        typer.echo(case_text(row))
     else:
-        print_answer(lambda: text.show_text(row), lambda: tables.show_document(row), as_json=as_json)
+        print_answer(lambda: text.show_text(row), lambda: show_document(row), as_json=as_json)
 
 
 @catalogue.command()
@@ -85,15 +85,15 @@ def own(
     D1 that is given makes the rest better.
     """
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.cases.screw_tables import catalogue as tables
+    from ballscrew.cases.screw_tables.catalogue import case_text
     from ballscrew.cases.screw_tables.own_nut import numbers_in, own_nut_of
-    from ballscrew.questions.catalogue import own_nut
+    from ballscrew.questions.catalogue import text
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
     nut = own_nut_of(numbers_in(numbers))
     if as_case:
-        typer.echo(tables.case_text(nut.row, nut.estimates))
-        print_notes_of_rows([f"warning: {line}" for line in own_nut.warnings(nut)])
+        typer.echo(case_text(nut.row, nut.estimates))
+        print_notes_of_rows([f"warning: {line}" for line in text.warnings(nut)])
     else:
-        print_answer(lambda: own_nut.text(nut), lambda: own_nut.document(nut), as_json=as_json)
+        print_answer(lambda: text.text(nut), lambda: text.document(nut), as_json=as_json)

@@ -23,7 +23,8 @@ def list_names(
 ) -> None:
     """List grades, laws, models, inputs or outputs. Grades are those of oils; inputs are what can be varied."""
     from ballscrew.cases.case_files import case_file
-    from ballscrew.questions.names import compute, text
+    from ballscrew.questions import names as compute
+    from ballscrew.questions import names as text
 
     names = compute.names(kind, None if case is None else case_file.load(case))
     names = [name for name in names if all(word.lower() in " ".join(name).lower() for word in words or ())]
@@ -100,11 +101,10 @@ def list_oils(
 ) -> None:
     """All oils, one line each."""
     from ballscrew.cases.case_files import oil_library
-    from ballscrew.questions.oils import document as documents
-    from ballscrew.questions.oils import text
+    from ballscrew.questions.oils import document, list_text
 
     sheets = oil_library.chosen(oil_library.oils(file), " ".join(words or []))
-    print_answer(lambda: text.list_text(sheets), lambda: documents.document(sheets), as_json=as_json)
+    print_answer(lambda: list_text(sheets), lambda: document(sheets), as_json=as_json)
 
 
 @oils.command("show")
@@ -118,11 +118,10 @@ def show_oil(
     The viscosities are from -40 to 120 degC.
     """
     from ballscrew.cases.case_files import oil_library
-    from ballscrew.questions.oils import document as documents
-    from ballscrew.questions.oils import text
+    from ballscrew.questions.oils import document, show_text
 
     sheet = oil_library.oils(file).named(name)
-    print_answer(lambda: text.show_text(sheet), lambda: documents.document([sheet]), as_json=as_json)
+    print_answer(lambda: show_text(sheet), lambda: document([sheet]), as_json=as_json)
 
 
 # -- torque cards ---------------------------------------------------------------------------------
@@ -140,11 +139,11 @@ def check_cards(
     A card without a fault has one line, with what it does not state.
     """
     from ballscrew.cases.torque_cards import torque_card
-    from ballscrew.questions.card import compute as documents
-    from ballscrew.questions.card import text
+    from ballscrew.questions import card as documents
+    from ballscrew.questions.card import text_of
 
     read = torque_card.read_all(cards)
-    print_answer(lambda: text.text_of(read), lambda: documents.documents(read), as_json=as_json)
+    print_answer(lambda: text_of(read), lambda: documents.documents(read), as_json=as_json)
 
 
 @card.command("schema")

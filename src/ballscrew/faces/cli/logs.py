@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ballscrew.questions.fit.compute import FitReport
     from ballscrew.questions.shared.every_row import RowCase
     from ballscrew.questions.validate.compute import Request
-    from ballscrew.questions.validate.summary import SummaryRow
+    from ballscrew.questions.validate.sheet import SummaryRow
 
 
 def fit(
@@ -89,8 +89,8 @@ def fit(
     loaded = case_options.build(tables, case.parent)
 
     # pandas is slow to import: only for a good case
-    from ballscrew.questions.fit_motion.log import is_moving
-    from ballscrew.questions.shared.chart_files import check_picture
+    from ballscrew.questions.fit_motion.answer import is_moving
+    from ballscrew.questions.shared.charts import check_picture
 
     if picture is not None:
         check_picture(picture, "--picture")
@@ -155,12 +155,12 @@ def _fit_torques(
         steady = steady_log(case, log, options, done)
         # solvers are slow to import: only for a log that can be fitted to
         from ballscrew.questions.fit import compute
-        from ballscrew.questions.fit.answer import document
+        from ballscrew.questions.fit.document import document
         from ballscrew.questions.fit.sheet import sheet
 
         assumed: Sequence[str] = ()
         if options.self_heating:
-            from ballscrew.questions.fit.warm_log import warm_log
+            from ballscrew.questions.fit.log import warm_log
 
             steady, assumed = warm_log(case, steady, options.kind)
         report = dataclasses.replace(compute.fit(case, steady, options), assumed=assumed)
@@ -210,7 +210,7 @@ def _fit_motion(
     case: Case, log: Path, test: Path | None, written: Mapping[str, Any], output: Output
 ) -> tuple[Sheet, int]:
     """Fit a case to a moving log, and print the fit. Returns its sheet, and the number of rows of the log."""
-    from ballscrew.questions.fit_motion.log import moving_log
+    from ballscrew.questions.fit_motion.answer import moving_log
     from ballscrew.questions.shared.option_values import read
 
     options = read(FitMotionOptions, written)
@@ -223,11 +223,10 @@ def _fit_motion(
         output.print(steady.sheet(friction, read_log), lambda: steady.document(friction, read_log))
         return steady.sheet(friction, read_log), sum(one.rows for one in friction.speeds)
     # solvers are slow to import: only for a log that can be read
-    from ballscrew.questions.fit_motion import compute
-    from ballscrew.questions.fit_motion.document import document
-    from ballscrew.questions.fit_motion.sheet import sheet
+    from ballscrew.questions.fit_motion import answer
+    from ballscrew.questions.fit_motion.answer import document, sheet
 
-    motion = compute.fit(case, read_log, test_log, options)
+    motion = answer.fit(case, read_log, test_log, options)
     fit_sheet = sheet(case, motion)
     output.print(fit_sheet, lambda: document(case, motion))
     return fit_sheet, motion.equation.used.size
@@ -265,8 +264,8 @@ def _fit_rows(
     from ballscrew.basis.errors import raise_if_any
     from ballscrew.cases.case_files import fitted_case
     from ballscrew.faces.sheets import files
-    from ballscrew.questions.fit import rows as fit_rows
-    from ballscrew.questions.fit.answer import document
+    from ballscrew.questions.fit import compute
+    from ballscrew.questions.fit.document import document
     from ballscrew.questions.fit.log import read_options
     from ballscrew.questions.fit.sheet import of_rows
 
@@ -279,7 +278,7 @@ def _fit_rows(
     table = to if to is not None and _is_table(to) else None
     paths = {} if to is None or table is not None else _paths(to, cases.found, case)
     with progress("logs") as done:
-        logs = fit_rows.logs(cases.found, rows, options, keep_going=keep_going, done=done)
+        logs = compute.logs(cases.found, rows, options, keep_going=keep_going, done=done)
 
     left_out: list[Fault] = []
 
@@ -293,7 +292,7 @@ def _fit_rows(
             fitted_case.save(path, row_case.tables, case.parent, row_case.case, report.model)
 
     with progress("fits") as done:
-        fitted = fit_rows.fits(cases.found, logs.found, options, keep_going=keep_going, each=save, done=done)
+        fitted = compute.fits(cases.found, logs.found, options, keep_going=keep_going, each=save, done=done)
     by_place = {each.place: each for each in cases.found.values()}
     reports = {by_place[place].row.name: report for place, report in fitted.found.items()}
 
@@ -313,14 +312,14 @@ def _fit_rows(
 def _is_table(to: Path) -> bool:
     """Test whether the rows go to a table, or else to a folder. Raises ``InputError`` for a file of another kind."""
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.shared import row_tables
+    from ballscrew.questions.shared import every_row
 
     if to.is_dir() or not to.suffix:
         return False
-    if to.suffix.lower() not in row_tables.KINDS:
+    if to.suffix.lower() not in every_row.KINDS:
         remedy = "end it in .csv or .xlsx, or give a folder for a calibrated case of each"
         raise InputError(Fault("--to", "unknown kind of file", str(to), remedy))
-    row_tables.check_path(to)
+    every_row.check_path(to)
     return True
 
 
@@ -328,7 +327,7 @@ def _paths(folder: Path, cases: Mapping[str, RowCase], case: Path) -> dict[str, 
     """The calibrated case of each row in a folder, which has to be writable and not to be the case itself."""
     from ballscrew.basis.atomic_files import check_writable
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.fit.rows import files
+    from ballscrew.questions.fit.compute import files
 
     paths = files(cases, folder)
     for path in paths.values():
@@ -398,12 +397,12 @@ def validate(
     people use in place of a model.
     """
     from ballscrew.basis.output import json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
+    from ballscrew.basis.output.sheet import document
     from ballscrew.faces.sheets import terminal
-    from ballscrew.questions.shared import chart_files
+    from ballscrew.questions.shared import charts
     from ballscrew.questions.validate import compute
     from ballscrew.questions.validate import sheet as sheets
-    from ballscrew.questions.validate import summary as summaries
+    from ballscrew.questions.validate import sheet as summaries
     from ballscrew.questions.validate.document import documents
 
     request = compute.request(
@@ -421,7 +420,7 @@ def validate(
         report=report,
     )
     if to is not None:
-        chart_files.check_picture(to)
+        charts.check_picture(to)
     if report is not None:
         from ballscrew.faces.report.files import check_kind
 
@@ -445,7 +444,7 @@ def validate(
         print_notes_of_rows(notes)
         show(sheets.of_makers(makers))
     if output.as_sheet:
-        typer.echo(json_text.as_json([sheet_document(sheet) for sheet in shown]))
+        typer.echo(json_text.as_json([document(sheet) for sheet in shown]))
     elif output.as_json and summary:
         typer.echo(json_text.as_json(summaries.document(makers)))
     elif output.as_json:
@@ -455,7 +454,7 @@ def validate(
     if to is not None:
         from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
 
-        chart_files.draw(lambda: pictures.picture(sheets.picture(sets_of_entries, request)), to)
+        charts.draw(lambda: pictures.picture(sheets.picture(sets_of_entries, request)), to)
         output.note(f"{to}: {len(sets_of_entries)} sets")
 
 
@@ -463,6 +462,6 @@ def _write_paper(request: Request, entries: Sequence[Sequence[Entry]], path: Pat
     """Write all of a validation as one paper, and return its size in bytes."""
     from ballscrew.faces.report.files import written
     from ballscrew.faces.report.validation import report
-    from ballscrew.questions.validate.summary import summary
+    from ballscrew.questions.validate.sheet import summary
 
     return written("--report", path, report(request, entries, summary(request, entries)[0]))

@@ -17,7 +17,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from ballscrew.basis import pint_plugins as _pint_plugins
+from ballscrew.basis import pint_plugins
 from ballscrew.faces.cli import INTERRUPTED, cases, choosing, lists, logs, questions, sharing
 from ballscrew.faces.cli.options import with_flags
 from ballscrew.questions.records import (
@@ -171,7 +171,7 @@ def main() -> None:
             stream.reconfigure(errors="backslashreplace")
     if not sys.warnoptions:  # -W and PYTHONWARNINGS ask for them
         warnings.simplefilter("ignore")  # those of libraries: what matters to people stands in the answer
-    _pint_plugins.hidden_from_pint += ["dask", "scipy"]
+    pint_plugins.hidden_from_pint += ["dask", "scipy"]
     if not any(word.startswith("--scheduler") for word in sys.argv):
         absent: Any = None  # as if it were not installed: xarray would load it, which takes seconds after a boot
         sys.modules.setdefault("dask", absent)

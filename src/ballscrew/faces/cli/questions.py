@@ -52,7 +52,7 @@ def _paths(given: Any) -> Sequence[Path]:
 def _check_files(paths: Sequence[Path], flag: str, own_kinds: Sequence[str]) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` now for files that could not be written later."""
     from ballscrew.faces.sheets import to_file
-    from ballscrew.questions.shared.chart_files import check_picture
+    from ballscrew.questions.shared.charts import check_picture
 
     if flag != "picture":
         to_file.check(paths, own_kinds)

@@ -81,8 +81,7 @@ def hand_over(
 ) -> None:
     """Write the model for a simulator, a robot or a control. Its range and its worst error come with it."""
     from ballscrew.exports import requests
-    from ballscrew.questions.hand_over import document as documents
-    from ballscrew.questions.hand_over import text
+    from ballscrew.questions.hand_over import document
 
     requests.check_target(to)
     loaded = case_options.load(case)
@@ -90,7 +89,9 @@ def hand_over(
     with progress("hand-over"):
         export = requests.of_case(loaded, to, request)
     files = export.write(out)
-    print_answer(lambda: text.text(export, files), lambda: documents.document(export, loaded, files), as_json=as_json)
+    print_answer(
+        lambda: document.text(export, files), lambda: document.document(export, loaded, files), as_json=as_json
+    )
 
 
 def compensation(
@@ -111,18 +112,17 @@ def compensation(
     """
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.basis.errors import Fault, InputError, nearest
-    from ballscrew.questions.compensation import compute
-    from ballscrew.questions.compensation.sheet import sheet
-    from ballscrew.questions.compensation.table import LISTS
-    from ballscrew.questions.warm_up import compute as warm_up
+    from ballscrew.questions.compensation import answer
+    from ballscrew.questions.compensation.answer import LISTS, sheet
+    from ballscrew.questions.warm_up import compute
 
     if to not in LISTS:
         raise InputError(Fault(_TO, "unknown control", to, nearest(to, LISTS)))
-    compute.check(options)
+    answer.check(options)
     check_writable("--out", out)
-    loaded = warm_up.load(case, case_options.settings, case_options.model, allow_code=case_options.allow_code)
-    warmed_up = warm_up.warmed_up(loaded, options.hours)
-    result = compute.position_compensation(
+    loaded = compute.load(case, case_options.settings, case_options.model, allow_code=case_options.allow_code)
+    warmed_up = compute.warmed_up(loaded, options.hours)
+    result = answer.position_compensation(
         warmed_up,
         options.hours,
         zero=options.zero,
@@ -133,7 +133,7 @@ def compensation(
     with atomic_write("--out", out) as path:
         path.write_text(LISTS[to](result, options.axis), encoding="utf-8")
     output.note(f"{out}")
-    output.print(sheet(result, warmed_up), lambda: compute.document(result, warmed_up))
+    output.print(sheet(result, warmed_up), lambda: answer.document(result, warmed_up))
 
 
 def site(
@@ -151,12 +151,12 @@ def site(
     The folder can be put on any web server; a single file opens by a double click. To write it takes the compiler
     of the extra "fast"; to use it takes nothing.
     """
-    from ballscrew.faces.page import site as pages
+    from ballscrew.faces.page import site
 
-    pages.check_place(out, single=single)
+    site.check_place(out, single=single)
     with progress("modules") as done:
-        files = pages.site(model or (), nut or (), single=single, done=done)
-    written = pages.write(out, files)
+        files = site.site(model or (), nut or (), single=single, done=done)
+    written = site.write(out, files)
     size = sum(len(content) for content in files.values())
     place = written[-1]
     typer.echo(f"{place}: {len(written)} file{'s' if len(written) > 1 else ''}, {size / 1e6:.2f} MB")

@@ -10,9 +10,9 @@ from ballscrew.faces.cli import INTERRUPTED
 def main() -> None:
     """Load the commands and run one; Ctrl-C meanwhile ends with one line and exit code 130, without a traceback."""
     try:
-        from ballscrew.faces.cli.main import main as run
+        from ballscrew.faces.cli.main import main
 
-        run()
+        main()
     except KeyboardInterrupt:
         sys.exit(_interrupted())
 

@@ -25,7 +25,6 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.sizing.listed_nut import NUTS
-from ballscrew.questions.shared import chart_files as files
 from ballscrew.questions.shared import charts
 
 _TORQUE = "friction torque on the screw (N m)"
@@ -49,8 +48,8 @@ class Picture:
         """Write it as .png, .svg or .pdf, by the ending. Raises :class:`~ballscrew.basis.errors.InputError` for
         others.
         """
-        files.check_picture(Path(to), "to")
-        files.draw(lambda: self.figure, Path(to), "to")
+        charts.check_picture(Path(to), "to")
+        charts.draw(lambda: self.figure, Path(to), "to")
         return Path(to)
 
     def _repr_png_(self) -> bytes:

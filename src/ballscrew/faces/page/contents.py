@@ -27,7 +27,7 @@ from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.friction.result import QUADRANTS
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.questions.curves.compute import COLD, HOT, axes_around
+from ballscrew.questions.curves import COLD, HOT, axes_around
 from ballscrew.questions.run.answer import document
 from ballscrew.questions.run.compute import run
 

@@ -11,7 +11,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.schema.case_schema import DEFAULT_MODEL
-from ballscrew.evidence.papers.olaru2005 import case as paper
+from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
@@ -66,11 +66,11 @@ def logs() -> dict[str, Any]:
 def _paper() -> dict[str, Any]:
     """The paper's screw, oil and operating point as the tables of a case."""
     return {
-        "screw": _written(paper.SCREW, BallScrew),
-        "lubricant": _written(paper.OIL, Lubricant),
+        "screw": _written(case.SCREW, BallScrew),
+        "lubricant": _written(case.OIL, Lubricant),
         "operation": {
             name: units.written(value, fields_of(OperatingState)[name])
-            for name, value in (("axial_load", paper.AXIAL_LOAD), ("screw_speed", paper.SCREW_SPEED))
+            for name, value in (("axial_load", case.AXIAL_LOAD), ("screw_speed", case.SCREW_SPEED))
         },
         "model": {"name": DEFAULT_MODEL},
     }

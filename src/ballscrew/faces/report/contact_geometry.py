@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.equations import kinematics, slip
 from ballscrew.physics.laws.traits import traits_of
-from ballscrew.questions.run.compute import Run
-from ballscrew.questions.run.nut_state import Touching
+from ballscrew.questions.run.compute import Run, Touching
 
 Field = NDArray[np.float64]
 #: Heights across the ellipse at which the slip is asked for a change of sign.

@@ -20,10 +20,9 @@ from ballscrew.faces.report.curves import Curves, curves
 from ballscrew.faces.report.drawing import drawing
 from ballscrew.faces.sheets import report_blocks
 from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
-from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import sheet as band_sheet
+from ballscrew.questions.band import compute, sheet
 from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.band.tornado import tornado
+from ballscrew.questions.band.sheet import tornado
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.check.sheet import unlisted_ratings
 from ballscrew.questions.duty.compute import DutyReport, duty
@@ -72,14 +71,14 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     def of_band(finished: int, total: int) -> None:
         _tell(done, _ANSWERED + (_BANDED - _ANSWERED) * finished // max(total, 1))
 
-    uncertain = band.band(case, BandOptions(samples=samples), of_band)
+    uncertain = compute.band(case, BandOptions(samples=samples), of_band)
     _tell(done, _BANDED)
     pictures = _pictures(curves(case))
     _tell(done, _DRAWN)
     inputs = input_tables.tables(case)
     vendor = vendor_rows(case)
     cycle = _duty(case)
-    seen = band_sheet.sheet(case, uncertain, tornado=tornado(case, uncertain))
+    seen = sheet.sheet(case, uncertain, tornado=tornado(case, uncertain))
     sections = [
         Section("Answer", _answer(cycle, answer(result, uncertain), case)),
         _checks(case, result, cycle),
@@ -146,14 +145,14 @@ def _verdict(verdict: str, of_point: Checked) -> Paragraph:
 # -- the operating point --------------------------------------------------------------------------
 
 
-def answer(result: Run, uncertain: band.BandReport) -> Paragraph:
+def answer(result: Run, uncertain: compute.BandReport) -> Paragraph:
     """The answer at the operating point with its bands."""
-    return Paragraph(" ".join(f"{sentence(text)}." for text in band_sheet.answer(result, uncertain)), strong=True)
+    return Paragraph(" ".join(f"{sentence(text)}." for text in sheet.answer(result, uncertain)), strong=True)
 
 
-def results(result: Run, uncertain: band.BandReport) -> Columns:
+def results(result: Run, uncertain: compute.BandReport) -> Columns:
     """Torque, efficiency and power with their bands; of a nut how it gives way; and the contacts with screw and nut."""
-    bands = uncertain.band.outputs if band_sheet.has_band(uncertain) else {}
+    bands = uncertain.band.outputs if sheet.has_band(uncertain) else {}
     tables = run_sheet.sheet(result, bands).of_kind(SheetTable)
     return Columns.of([report_blocks.table(table) for table in tables if not table.detail and table.name != "parts"])
 
@@ -166,7 +165,7 @@ def parts(result: Run) -> list[Block]:
 
 def vendor_rows(case: case_file.Case) -> list[Block]:
     """The rows of a vendor most like the nut, and what the model says of them."""
-    near = band_sheet.vendor_rows(case)
+    near = sheet.vendor_rows(case)
     return [] if near is None else [Paragraph(f"{sentence(near[0])}."), report_blocks.table(near[1])]
 
 
@@ -197,10 +196,10 @@ def _cycle(cycle: DutyReport | None) -> list[Section]:
 
 def _bands(cycle: DutyReport) -> DutyBandReport | None:
     """The bands of a cycle; None for a screw without inputs that are uncertain."""
-    from ballscrew.questions.duty.band import band as duty_band
+    from ballscrew.questions.duty.band import band
 
     try:
-        return duty_band(cycle, _CYCLE_SAMPLES_BY_BALL if cycle.case.screw.nut.one_by_one else _CYCLE_SAMPLES)
+        return band(cycle, _CYCLE_SAMPLES_BY_BALL if cycle.case.screw.nut.one_by_one else _CYCLE_SAMPLES)
     except InputError:
         return None
 
@@ -214,8 +213,7 @@ def _stiffness(case: case_file.Case) -> list[Section]:
     """The section on what gives way between motor and table, and on what the shaft stands."""
     if not _has_stiffness(case):
         return []
-    from ballscrew.questions.axis.compute import chain_of
-    from ballscrew.questions.axis.sheet import sheet
+    from ballscrew.questions.axis.answer import chain_of, sheet
 
     try:
         blocks = report_blocks.blocks(sheet(chain_of(case)), "axis")
@@ -265,7 +263,7 @@ def _drawing(result: Run) -> list[Block]:
 def _pictures(result: Curves) -> list[Picture]:
     # matplotlib takes its time: only for those who want a report
     from ballscrew.faces.report.curve_figures import pictures
-    from ballscrew.questions.shared.chart_svg import named
+    from ballscrew.questions.shared.charts import named
 
     speed, load = (f"{value:.6g}" for value in result.here)
     here = "the dashed line is the operating point"
@@ -307,7 +305,7 @@ def origins(case: case_file.Case, inputs: list[Table]) -> Paragraph:
     return Paragraph(f"Where values are from: {input_tables.sources_in_words(case, inputs)}")
 
 
-def sources(case: case_file.Case, band_report: band.BandReport) -> list[tuple[str, str]]:
+def sources(case: case_file.Case, band_report: compute.BandReport) -> list[tuple[str, str]]:
     """Sources of a case and its band, in words, each with its address."""
     keys = [*case_file.references(case), *_OF_CHECKS, *(one.source for one in band_report.inputs.values())]
     keys += [] if case.row is None else bibliography.of_catalogue(case.row.source)

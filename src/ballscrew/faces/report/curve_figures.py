@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from ballscrew.faces.report.curves import Curves
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.shared import charts
-from ballscrew.questions.shared.chart_svg import svg_of
+from ballscrew.questions.shared.charts import svg_of
 
 #: Inches: the width of an A4 page between its margins.
 _WIDTH, _HEIGHT = 7.1, 2.5

@@ -12,7 +12,7 @@ from ballscrew.faces.report.svg import FAINT, GREEN, LINE, TEXT, TITLE, Panel, P
 from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.laws.contact import RaceState
-from ballscrew.questions.run.nut_state import Touching
+from ballscrew.questions.run.compute import Touching
 
 #: The middle of the ball, and its radius.
 BALL, RADIUS = (122.0, 158.0), 78.0

@@ -17,12 +17,12 @@ from ballscrew.faces.report.contents import ALL, Done
 from ballscrew.faces.sheets import report_blocks
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import sheet as band_sheet
+from ballscrew.questions.band import sheet
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.band.tornado import tornado
+from ballscrew.questions.band.sheet import tornado
 from ballscrew.questions.check.compute import Checked, checked
-from ballscrew.questions.compare_designs.sheet import bars as bars_of_designs
+from ballscrew.questions.compare_designs.answer import bars as bars_of_designs
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.run.sheet import meaning
 from ballscrew.questions.shared import check_lines
@@ -125,7 +125,7 @@ def _table(designs: Sequence[Design]) -> Table:
 def _cell(one: Design, name: str, first: Design) -> str:
     quantity = known_outputs(one.case.screw.nut)[name].quantity
     value, start = (float(getattr(each.run.friction, name)) for each in (one, first))
-    ends = one.band.band[name].both if band_sheet.has_band(one.band) else (math.nan, math.nan)
+    ends = one.band.band[name].both if sheet.has_band(one.band) else (math.nan, math.nan)
     share = name.endswith("efficiency")
     text = words(Share(value, band=ends) if share else Number(value, quantity, band=ends))
     # a ratio of torques of either sign says nothing
@@ -149,7 +149,7 @@ def _picture(designs: Sequence[Design]) -> list[Block]:
 
 
 def _of_one(one: Design) -> list[Block]:
-    swings = band_sheet.swings(one.band, tornado(one.case, one.band))
+    swings = sheet.swings(one.band, tornado(one.case, one.band))
     return [
         contents.results(one.run, one.band),
         *contents.parts(one.run),

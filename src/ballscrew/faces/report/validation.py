@@ -15,11 +15,11 @@ from ballscrew.basis.version import __version__
 from ballscrew.evidence.validation.entries import Entry, fitted_rows, may_be_fitted
 from ballscrew.faces.sheets import report_blocks
 from ballscrew.questions.shared import charts
-from ballscrew.questions.shared.chart_svg import named, svg_of
+from ballscrew.questions.shared.charts import named, svg_of
 from ballscrew.questions.shared.report_blocks import Bullets, Paragraph, Picture, Report, Section, Table
-from ballscrew.questions.validate import sheet as sheets
+from ballscrew.questions.validate import sheet
 from ballscrew.questions.validate.compute import Request
-from ballscrew.questions.validate.summary import CALIBRATION, MODEL, RULE, SummaryRow
+from ballscrew.questions.validate.sheet import CALIBRATION, MODEL, RULE, SummaryRow
 
 _TITLE = "What friction models of ball screws are worth"
 _PAGES = 16
@@ -54,10 +54,10 @@ def report(request: Request, rows: Sequence[Sequence[Entry]], table: Sequence[Su
     sections = [
         Section("In short", [Paragraph(text, strong=not place) for place, text in enumerate(_in_short(plain, table))]),
         *(_of_makers(plain, table) if table else ()),
-        Section("Each set", [report_blocks.table(sheets.of_sets(plain))]),
+        Section("Each set", [report_blocks.table(sheet.of_sets(plain))]),
         Section("What nobody has measured", [Bullets(NOT_MEASURED)]),
         Section("The experiment that would settle it", [Bullets(EXPERIMENT), _CALL]),
-        *(Section(e.data.name, report_blocks.blocks(sheets.sheet([e], request), e.data.name)) for e in plain),
+        *(Section(e.data.name, report_blocks.blocks(sheet.sheet([e], request), e.data.name)) for e in plain),
     ]
     subtitle = [f"model {request.model.label}; ratios are model / middle of what is stated"]
     return Report(_TITLE, subtitle, sections, f"ballscrew {__version__}", _PAGES)
@@ -65,7 +65,7 @@ def report(request: Request, rows: Sequence[Sequence[Entry]], table: Sequence[Su
 
 def _of_makers(entries: Sequence[Entry], table: Sequence[SummaryRow]) -> list[Section]:
     """The sections on torques without load that makers state."""
-    _, statistics, chosen = report_blocks.blocks(sheets.of_makers(table), "makers")
+    _, statistics, chosen = report_blocks.blocks(sheet.of_makers(table), "makers")
     return [
         Section("All makers", [statistics, _picture(table)]),
         Section("Does the band hold them?", [_coverage(entries)]),

@@ -13,7 +13,7 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.output.sheet import Cell, Column, Columns, Number, Share, Sheet, Table
-from ballscrew.questions.shared.row_tables import RowTable, write_csv, xlsx_bytes
+from ballscrew.questions.shared.every_row import RowTable, write_csv, xlsx_bytes
 
 _DIGITS = 12
 

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Axis, Band, Bar, Bars, Chart, Colour, Curve, Level, Lines, Map, Sheet, Vertical
 from ballscrew.questions.shared import charts
-from ballscrew.questions.shared.chart_colours import SHADES
+from ballscrew.questions.shared.charts import SHADES
 from ballscrew.questions.shared.report_blocks import sentence
 
 _STYLES: Mapping[str, Mapping[str, Any]] = {

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ballscrew.basis.output.sheet import Bars, Chart, Lines, Map, Sheet, words
 from ballscrew.basis.output.sheet import Table as SheetTable
-from ballscrew.questions.shared.chart_svg import named, svg_of
+from ballscrew.questions.shared.charts import named, svg_of
 from ballscrew.questions.shared.report_blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
 
 

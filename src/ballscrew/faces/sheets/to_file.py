@@ -8,7 +8,7 @@ from pathlib import Path
 from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.output.sheet import Sheet
-from ballscrew.questions.shared import chart_files, row_tables
+from ballscrew.questions.shared import charts, every_row
 
 
 def check(paths: Iterable[Path], own_kinds: Sequence[str] = ()) -> None:
@@ -16,26 +16,26 @@ def check(paths: Iterable[Path], own_kinds: Sequence[str] = ()) -> None:
 
     ``own_kinds`` are kinds of files that a question writes beside tables and pictures.
     """
-    *others, last = (*row_tables.KINDS, *chart_files.SUFFIXES, *own_kinds)
+    *others, last = (*every_row.KINDS, *charts.SUFFIXES, *own_kinds)
     remedy = f"end it in {', '.join(others)} or {last}"
     unknown = [path for path in paths if path.suffix.lower() not in (*others, last)]
     raise_if_any([Fault("--to", "unknown kind of file", str(path), remedy) for path in unknown])
     for path in paths:
         if path.suffix.lower() in own_kinds:
             check_writable("--to", path)
-        elif path.suffix.lower() in row_tables.KINDS:
-            row_tables.check_path(path)
+        elif path.suffix.lower() in every_row.KINDS:
+            every_row.check_path(path)
         else:
-            chart_files.check_picture(path)
+            charts.check_picture(path)
 
 
 def write(to: Path, sheet: Sheet, name: str = "", option: str = "--to") -> None:
     """Write one file, whole or not at all: .csv has the columns of a name, or the first; ``option`` asks for it."""
-    if to.suffix.lower() in row_tables.KINDS:
+    if to.suffix.lower() in every_row.KINDS:
         from ballscrew.faces.sheets import files
 
         files.write(to, sheet, name)
     else:
         from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
 
-        chart_files.draw(lambda: pictures.picture(sheet), to, option)
+        charts.draw(lambda: pictures.picture(sheet), to, option)

@@ -19,15 +19,14 @@ from ballscrew.faces.web.bodies import MOST_BYTES, MOST_VALUES, CaseBody, Tables
 from ballscrew.faces.web.endpoint_parts import as_bytes, cancellable, of_tables, queue_of
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue
-from ballscrew.questions.check import answer as check_answers
+from ballscrew.questions.check import compute
 from ballscrew.questions.check.compute import with_nut_named
-from ballscrew.questions.curves.compute import Curve, curves
-from ballscrew.questions.run import response as run_answers
+from ballscrew.questions.curves import Curve, curves
+from ballscrew.questions.run import response
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.shared import answer_parts
-from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweeps
-from ballscrew.questions.sweep import response as sweep_answers
+from ballscrew.questions.sweep.answer import Sweep, document
 
 #: Designs beside the case at most.
 MOST_BESIDE = 8
@@ -49,7 +48,7 @@ class RunLine(answer_parts.Closed):
 
     question: Literal["run"]
     place: int
-    answer: run_answers.Run
+    answer: response.Run
 
 
 class CheckLine(answer_parts.Closed):
@@ -57,7 +56,7 @@ class CheckLine(answer_parts.Closed):
 
     question: Literal["check"]
     place: int
-    answer: check_answers.Checks
+    answer: compute.Checks
 
 
 class CurveLine(answer_parts.Closed):
@@ -65,7 +64,7 @@ class CurveLine(answer_parts.Closed):
 
     question: Literal["over_speed", "cold_and_hot", "over_both", "over_load"]
     place: Literal[0]
-    answer: sweep_answers.Sweep
+    answer: Sweep
 
 
 class DrawingLine(answer_parts.Closed):
@@ -213,7 +212,7 @@ class _Asked:
         plan = sweeps.with_flooded_torque(case, sweeps.plan(case, axes, curve.outputs, None))
 
         def work(done: Deadline) -> dict[str, Any]:
-            return sweep_documents.document(case, plan, sweeps.sweep(case, plan, done))
+            return document(case, plan, sweeps.sweep(case, plan, done))
 
         if limits.is_short(case, plan):
             return await self.queue.short(work)

@@ -62,27 +62,23 @@ from ballscrew.faces.web.endpoint_parts import (
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.physics.sizing.catalogue import catalogue as shipped
-from ballscrew.questions.band import compute as bands
-from ballscrew.questions.band import response as band_answers
+from ballscrew.questions.band import compute, document
 from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.catalogue import answer as catalogue_answers
-from ballscrew.questions.catalogue import own_nut as own_nuts
-from ballscrew.questions.check import answer as check_answers
-from ballscrew.questions.check.compute import with_nut_named
-from ballscrew.questions.fit import log_answer
-from ballscrew.questions.hand_over import answer as hand_over_answers
-from ballscrew.questions.hand_over import document as hand_over_documents
+from ballscrew.questions.catalogue import answer, text
+from ballscrew.questions.check.compute import Checks, with_nut_named
+from ballscrew.questions.fit.document import Examples
+from ballscrew.questions.hand_over.document import Targets, targets
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
-from ballscrew.questions.run import response as run_answers
-from ballscrew.questions.shared import option_values, schema_answer
+from ballscrew.questions.run import response
+from ballscrew.questions.shared import answer_parts, option_values
 from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweeps
-from ballscrew.questions.sweep import response as sweep_answers
+from ballscrew.questions.sweep.answer import Sweep
 from ballscrew.questions.sweep.band import INNER, with_band
 from ballscrew.questions.sweep.options import SweepOptions
-from ballscrew.questions.validate import answer as validate_answers
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as validation_documents
+from ballscrew.questions.validate.document import ValidationEntry
 
 #: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
@@ -97,18 +93,14 @@ for _part in (answers_api, file_api, question_api, module_api, job_api):
 # -- of a case --------------------------------------------------------------------------------------
 
 
-@router.post(
-    "/run", openapi_extra=openapi.body(CaseBody), response_model=run_answers.Run, responses=openapi.problems_of()
-)
+@router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=response.Run, responses=openapi.problems_of())
 async def run(request: Request) -> Response:
     """Friction at the operating point of a case: the document of ``ballscrew run --json``, with sentences."""
     body: CaseBody = await read(request, CaseBody)
     return await of_run(request, body.case, lambda result: as_json(documents.run(result)))
 
 
-@router.post(
-    "/check", openapi_extra=openapi.body(CaseBody), response_model=check_answers.Checks, responses=openapi.problems_of()
-)
+@router.post("/check", openapi_extra=openapi.body(CaseBody), response_model=Checks, responses=openapi.problems_of())
 async def check(request: Request) -> Response:
     """Life, strength and speed against their limits: the document of ``ballscrew check --json`` but its name."""
     body: CaseBody = await read(request, CaseBody)
@@ -119,15 +111,13 @@ async def check(request: Request) -> Response:
 @router.post("/drawing", openapi_extra=openapi.body(CaseBody), responses=openapi.text("image/svg+xml"))
 async def drawing(request: Request) -> Response:
     """The ball between its grooves and the slip in its contact, to scale, as SVG."""
-    from ballscrew.faces.report.drawing import drawing as drawn
+    from ballscrew.faces.report.drawing import drawing
 
     body: CaseBody = await read(request, CaseBody)
-    return await of_run(request, body.case, lambda result: Response(drawn(result), media_type="image/svg+xml"))
+    return await of_run(request, body.case, lambda result: Response(drawing(result), media_type="image/svg+xml"))
 
 
-@router.post(
-    "/sweep", openapi_extra=openapi.body(SweepBody), response_model=sweep_answers.Sweep, responses=openapi.problems_of()
-)
+@router.post("/sweep", openapi_extra=openapi.body(SweepBody), response_model=Sweep, responses=openapi.problems_of())
 async def sweep(request: Request) -> Response:
     """Friction over ranges of load, speed or any other field: the document of ``ballscrew sweep --json``."""
     body: CaseBody = await read(request, SweepBody)
@@ -158,12 +148,12 @@ async def sweep(request: Request) -> Response:
     return await heavy(request, work)
 
 
-@post(router, "/band", BandBody, band_answers.Band)
+@post(router, "/band", BandBody, document.Band)
 def band(body: CaseBody, done: Deadline) -> Response:
     """The band of a case and its causes: the document of ``ballscrew run --band --json``, with sentences."""
     options, case = option_values.read(BandOptions, dict(body)), case_of(body.case)
     limited = dataclasses.replace(options, samples=limits.samples_of(case, options.samples))
-    return as_json(documents.band(case, bands.band(case, limited, done)))
+    return as_json(documents.band(case, compute.band(case, limited, done)))
 
 
 @router.post("/report", openapi_extra=openapi.body(ReportBody), responses=openapi.text(*KINDS.values()))
@@ -195,13 +185,13 @@ async def report(
 # -- of a catalogue, and of the program -------------------------------------------------------------
 
 
-@post(router, "/own-nut", OwnNutBody, catalogue_answers.OwnNut, is_quick=always)
+@post(router, "/own-nut", OwnNutBody, answer.OwnNut, is_quick=always)
 def own_nut(body: OwnNutBody, _: object) -> Response:
     """A case of few numbers, what was estimated in it: the document of ``ballscrew catalogue own --json``."""
-    return as_json(own_nuts.document(own_nut_of(body.numbers)))
+    return as_json(text.document(own_nut_of(body.numbers)))
 
 
-@router.get("/catalogue", response_model=catalogue_answers.Catalogue, responses=openapi.problems_of())
+@router.get("/catalogue", response_model=answer.Catalogue, responses=openapi.problems_of())
 async def catalogue(
     words: Annotated[str, Query(description="all of them must be in a row")] = "",
 ) -> Response:
@@ -209,7 +199,7 @@ async def catalogue(
     return as_json(rows.list_document(rows.chosen(shipped(), words)))
 
 
-@router.get("/catalogue/{name}", response_model=catalogue_answers.Row, responses=openapi.problems_of(404))
+@router.get("/catalogue/{name}", response_model=answer.Row, responses=openapi.problems_of(404))
 async def row(name: openapi.RowName) -> Response:
     """One row: the document of ``ballscrew catalogue show --json``, and the case that ``--case`` writes, as tables."""
     try:
@@ -219,7 +209,7 @@ async def row(name: openapi.RowName) -> Response:
     return as_json({**rows.show_document(listed), "case": tomlkit.parse(rows.case_text(listed)).unwrap()})
 
 
-@router.get("/validate", response_model=list[validate_answers.ValidationEntry], responses=openapi.problems_of())
+@router.get("/validate", response_model=list[ValidationEntry], responses=openapi.problems_of())
 async def validate(
     request: Request,
     set: Annotated[str, Query(json_schema_extra={"enum": ["", *validation.SETS]}, description="one set alone")] = "",
@@ -257,12 +247,12 @@ def _constant(path: str, document: Callable[[], Any], model: type, words: str) -
 
 
 _constant(
-    "/schema", json_schema, schema_answer.CaseSchema, "JSON Schema of a case file, as ``ballscrew schema`` prints it."
+    "/schema", json_schema, answer_parts.CaseSchema, "JSON Schema of a case file, as ``ballscrew schema`` prints it."
 )
 _constant(
     "/need-schema",
     schema_of_needs,
-    schema_answer.NeedSchema,
+    answer_parts.NeedSchema,
     "JSON Schema of a need, as ``ballscrew schema --need`` prints it.",
 )
 _constant(
@@ -273,13 +263,13 @@ _constant(
 )
 _constant(
     "/targets",
-    hand_over_documents.targets,
-    hand_over_answers.Targets,
+    targets,
+    Targets,
     "The targets of a hand-over, and the choices that each has.",
 )
 _constant(
     "/examples",
     starts.logs,
-    log_answer.Examples,
+    Examples,
     "Logs to try, each with its case: those of the folder ``examples`` of the repository.",
 )

@@ -9,28 +9,26 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew.cases.case_files import case_file, descriptions
-from ballscrew.questions.band import compute as bands
-from ballscrew.questions.band import document as band_documents
+from ballscrew.questions.band import document
+from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.sheet import input_counts
-from ballscrew.questions.check import compute as checks
-from ballscrew.questions.check import document as check_documents
-from ballscrew.questions.run import answer as run_documents
-from ballscrew.questions.run import compute as runs
-from ballscrew.questions.run import makers
+from ballscrew.questions.check import compute as check_documents
+from ballscrew.questions.check.compute import checked
+from ballscrew.questions.run import answer, compute
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.
 _MOST_RUNS = 4
-_runs: OrderedDict[str, runs.Run] = OrderedDict()
+_runs: OrderedDict[str, compute.Run] = OrderedDict()
 _runs_lock = threading.Lock()
 
 
-def run_of(case: case_file.Case, tables: Mapping[str, Any]) -> runs.Run:
+def run_of(case: case_file.Case, tables: Mapping[str, Any]) -> compute.Run:
     """The run of a case that was made of these tables; of the same tables again it is not computed again."""
     key = json.dumps(tables, default=repr)
     with _runs_lock:
         result = _runs.get(key)
     if result is None:
-        result = runs.run(case)
+        result = compute.run(case)
         with _runs_lock:
             _runs[key] = result
             if len(_runs) > _MOST_RUNS:
@@ -38,9 +36,9 @@ def run_of(case: case_file.Case, tables: Mapping[str, Any]) -> runs.Run:
     return result
 
 
-def run(result: runs.Run) -> dict[str, Any]:
+def run(result: compute.Run) -> dict[str, Any]:
     """The document of a run, and its sentences."""
-    case, document = result.case, run_documents.document(result)
+    case, document = result.case, answer.document(result)
     rigidity = () if result.nut is None else result.nut.rigidity.assumed
     return {
         **document,
@@ -49,30 +47,30 @@ def run(result: runs.Run) -> dict[str, Any]:
             "verdicts": [record["text"] for record in document["verdicts"]],
             "assumed": descriptions.assumed(case, result.ball_to_ball_force),
             "rigidity": list(rigidity),
-            "rules": makers.messages(case, result.nut),
+            "rules": compute.messages(case, result.nut),
         },
     }
 
 
-def check(result: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
+def check(result: compute.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
     """The document of the checks of a run; a request has no name."""
-    document = check_documents.document(checks.checked("", result.case, notes, known=result))
+    document = check_documents.document(checked("", result.case, notes, known=result))
     return {key: value for key, value in document.items() if key != "name"}
 
 
-def drawing(result: runs.Run) -> dict[str, Any]:
+def drawing(result: compute.Run) -> dict[str, Any]:
     """The ball between its grooves, as SVG."""
-    from ballscrew.faces.report.drawing import drawing as drawn
+    from ballscrew.faces.report.drawing import drawing
 
-    return {"text": drawn(result)}
+    return {"text": drawing(result)}
 
 
-def band(case: case_file.Case, band_report: bands.BandReport) -> dict[str, Any]:
+def band(case: case_file.Case, band_report: BandReport) -> dict[str, Any]:
     """The document of a band, and its sentences."""
     return {
-        **band_documents.document(runs.run(case), band_report),
+        **document.document(compute.run(case), band_report),
         "words": {
-            "sentences": [verdict.text for verdict in band_documents.verdicts(case, band_report)],
+            "sentences": [verdict.text for verdict in document.verdicts(case, band_report)],
             "inputs": input_counts(band_report),
         },
     }

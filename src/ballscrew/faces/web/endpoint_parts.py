@@ -27,7 +27,7 @@ from ballscrew.faces.web.jobs import API, Jobs
 from ballscrew.faces.web.kept_answers import KeptAnswers, Question
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue, out_of_time
-from ballscrew.questions.run import compute as runs
+from ballscrew.questions.run import compute
 
 Answer = TypeVar("Answer")
 _JSON = "application/json"
@@ -206,7 +206,7 @@ async def _disconnected(request: Request) -> None:
         pass
 
 
-async def of_run(request: Request, tables: Mapping[str, Any], work: Callable[[runs.Run], Response]) -> Response:
+async def of_run(request: Request, tables: Mapping[str, Any], work: Callable[[compute.Run], Response]) -> Response:
     """Work on the run of a case, cancelled when the client disconnects; that of many balls is done as heavy work."""
 
     async def answer() -> Response:
@@ -216,7 +216,7 @@ async def of_run(request: Request, tables: Mapping[str, Any], work: Callable[[ru
     return await cancellable(request, answer())
 
 
-async def of_tables(requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[runs.Run], Answer]) -> Answer:
+async def of_tables(requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[compute.Run], Answer]) -> Answer:
     """Work on the run of a case in a thread, which is refused where it takes longer than that may be blocked."""
     case, answers = await _quick(requests, tables, work)
     if answers:
@@ -227,7 +227,7 @@ async def of_tables(requests: RequestQueue, tables: Mapping[str, Any], work: Cal
 
 
 async def _quick(
-    requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[runs.Run], Answer]
+    requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[compute.Run], Answer]
 ) -> tuple[case_file.Case, tuple[Answer, ...]]:
     """A case and the answer to quick work on its run; none where many balls are computed one by one."""
 

@@ -21,9 +21,9 @@ from starlette.responses import Response
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.output.json_text import as_json as json_text
 from ballscrew.cases.case_files import fitted_case
-from ballscrew.cases.case_files import project as projects
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.opened_file import opened
+from ballscrew.cases.case_files.project import KEY, VERSION, designs_of, tables_of
 from ballscrew.exports import requests
 from ballscrew.exports.export import Export
 from ballscrew.faces.web import openapi
@@ -43,20 +43,16 @@ from ballscrew.faces.web.endpoint_parts import always, as_json, heavy, post, wit
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.files.torque_logs.preview import preview
-from ballscrew.questions.fit import answer as fit_documents
-from ballscrew.questions.fit import compute as fits
-from ballscrew.questions.fit import log_answer
-from ballscrew.questions.fit import log_document as log_documents
-from ballscrew.questions.fit import response as fit_answers
+from ballscrew.questions.fit import compute, document
+from ballscrew.questions.fit import document as fit_documents
+from ballscrew.questions.fit.document import Fit
 from ballscrew.questions.fit.log import read_options, steady_log
-from ballscrew.questions.fit.sheet import sheet as fit_sheet
-from ballscrew.questions.fit_motion.log import is_moving
-from ballscrew.questions.hand_over import answer as hand_over_answers
+from ballscrew.questions.fit.sheet import sheet
+from ballscrew.questions.fit_motion.answer import is_moving
 from ballscrew.questions.hand_over import document as hand_over_documents
-from ballscrew.questions.hand_over import text as hand_over_text
+from ballscrew.questions.hand_over.document import HandOver, blocks, lines
 from ballscrew.questions.hand_over.options import HandOverOptions
-from ballscrew.questions.shared import file_answer as file_answers
-from ballscrew.questions.shared import option_values
+from ballscrew.questions.shared import file_answer, option_values
 
 #: Media types of a project, by its ``kind``.
 KINDS = {"toml": "application/toml", "json": "application/json"}
@@ -64,7 +60,7 @@ KINDS = {"toml": "application/toml", "json": "application/json"}
 router = APIRouter()
 
 
-@post(router, "/open", OpenBody, file_answers.Opened)
+@post(router, "/open", OpenBody, file_answer.Opened)
 def open_file(body: OpenBody, _: Deadline) -> Response:
     """The designs of a case file, a project or a table of screws, unchecked: ``run`` finds their faults."""
     with written({"file": body.file}, tables=False) as paths:
@@ -92,24 +88,24 @@ async def project(
 
     def work(_: Any) -> Response:
         refuse_nulls(body.designs)
-        designs = projects.designs_of({projects.KEY: projects.VERSION, "designs": body.designs}, "request")
-        tables = projects.tables_of(designs)
+        designs = designs_of({KEY: VERSION, "designs": body.designs}, "request")
+        tables = tables_of(designs)
         return Response(tomli_w.dumps(tables) if kind == "toml" else json_text(tables), media_type=KINDS[kind])
 
     return await heavy(request, work)
 
 
-@post(router, "/log", LogBody, log_answer.Log)
+@post(router, "/log", LogBody, document.Log)
 def log(body: LogBody, _: Deadline) -> Response:
     """The columns of a log and what each is taken for, and the numbers of the case that may be fitted to it."""
     case = case_of(body.case)
     with written({"log": body.log}) as paths:
         moving = is_moving(paths["log"], body.columns)
         columns = preview(paths["log"], body.columns)
-    return as_json(log_documents.document(columns, fits.candidates(case), moving=moving))
+    return as_json(document.columns_document(columns, compute.candidates(case), moving=moving))
 
 
-@post(router, "/fit", FitBody, fit_answers.Fit)
+@post(router, "/fit", FitBody, Fit)
 def fit(body: LogBody, done: Deadline) -> Response:
     """A case fitted to a log of torques: the document of ``ballscrew fit --json``, its sheet and the fitted case."""
     case = case_of(body.case)
@@ -121,19 +117,19 @@ def fit(body: LogBody, done: Deadline) -> Response:
         steady = steady_log(case, paths["log"], options, done)
     assumed: Sequence[str] = ()
     if options.self_heating:
-        from ballscrew.questions.fit.warm_log import warm_log
+        from ballscrew.questions.fit.log import warm_log
 
         steady, assumed = warm_log(case, steady, options.kind)
-    report = dataclasses.replace(fits.fit(case, steady, options, done), assumed=assumed)
+    report = dataclasses.replace(compute.fit(case, steady, options, done), assumed=assumed)
     calibrated = fitted_case.text_of(body.case, case, report.model)
     document = {
         **fit_documents.document(case, report),
         "calibrated": {"toml": calibrated, "case": tomllib.loads(calibrated)},
     }
-    return with_sheet(document, fit_sheet(case, report))
+    return with_sheet(document, sheet(case, report))
 
 
-@post(router, "/hand-over", HandOverBody, hand_over_answers.HandOver)
+@post(router, "/hand-over", HandOverBody, HandOver)
 def hand_over(body: TargetBody, _: Deadline) -> Response:
     """A case as files for another program: the document of ``ballscrew hand-over --json``, with the files."""
     options = option_values.read(HandOverOptions, dict(body))
@@ -141,11 +137,11 @@ def hand_over(body: TargetBody, _: Deadline) -> Response:
     case: Case = case_of(body.case)
     export = requests.of_case(case, body.to, requests.Request(**vars(options)))
     names = [PurePosixPath(name) for name in export.files]
-    ranges = [line for heading, entries in hand_over_text.blocks(export) for line in (heading, *entries)]
+    ranges = [line for heading, entries in blocks(export) for line in (heading, *entries)]
     return as_json(
         {
             **hand_over_documents.document(export, case, names),
-            "words": {"lines": hand_over_text.lines(export), "ranges": ranges},
+            "words": {"lines": lines(export), "ranges": ranges},
             "file": _file(export),
         }
     )

@@ -16,7 +16,7 @@ from ballscrew.cases.case_files.case_file import Case
 from ballscrew.engine.uncertainty.bands import NUT_SAMPLES, SAMPLES
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.questions.shared.options import options_of
-from ballscrew.questions.sweep import compute as sweeps
+from ballscrew.questions.sweep import compute
 from ballscrew.questions.sweep.band import INNER
 
 #: Axes and points of a sweep, and the values that it returns.
@@ -58,7 +58,7 @@ def check_size(vary: Mapping[str, str], outputs: int, *, banded: bool = False) -
     raise_if_any(faults)
 
 
-def check_values(plan: sweeps.Plan) -> None:
+def check_values(plan: compute.Plan) -> None:
     """Refuse a sweep that returns too many values, before it is computed."""
     values = _points_of(plan) * len(plan.columns)
     if values > MOST_RETURNED:
@@ -89,7 +89,7 @@ def check_columns(name: str, content: bytes) -> None:
         raise InputError(Fault(name, "has too many columns", f"{widest + 1:,}", remedy))
 
 
-def is_short(case: Case, plan: sweeps.Plan) -> bool:
+def is_short(case: Case, plan: compute.Plan) -> bool:
     """Test whether a sweep takes about a tenth of a second at most, such as those of the page without bands."""
     if plan.banded:
         return False
@@ -113,7 +113,7 @@ def samples_of(case: Case, requested: int | None = None) -> int | None:
     return requested
 
 
-def samples_of_sweep(case: Case, plan: sweeps.Plan, requested: int | None = None) -> int:
+def samples_of_sweep(case: Case, plan: compute.Plan, requested: int | None = None) -> int:
     """The samples of each point of a sweep with a band: the requested number, or the default, or fewer of many points.
 
     Fewer are a power of two.
@@ -136,10 +136,10 @@ def balls_of(case: Case) -> int:
 
 def _points(vary: Mapping[str, str]) -> int:
     """The points of a grid; an axis without values is refused later, with its own message."""
-    return math.prod(max(1, sweeps.length_of(text)) for text in list(vary.values())[: MOST_AXES + 1])
+    return math.prod(max(1, compute.length_of(text)) for text in list(vary.values())[: MOST_AXES + 1])
 
 
-def _points_of(plan: sweeps.Plan) -> int:
+def _points_of(plan: compute.Plan) -> int:
     return math.prod(len(values) for values in plan.axes.values())
 
 

@@ -25,7 +25,7 @@ from ballscrew.faces.web.modules import Modules, NotMadeError
 from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE
 from ballscrew.physics.components.nut import Bodies
-from ballscrew.questions.curves.compute import axes_around
+from ballscrew.questions.curves import axes_around
 from ballscrew.questions.shared.answer_parts import Closed, Number
 from ballscrew.questions.shared.answer_parts import Tables as AnyTables
 

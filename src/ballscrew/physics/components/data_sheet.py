@@ -25,8 +25,7 @@ from ballscrew.basis.quantities import (
     Viscosity,
     within_bounds,
 )
-from ballscrew.physics.equations import rheology
-from ballscrew.physics.equations import viscosity_temperature as equations
+from ballscrew.physics.equations import rheology, viscosity_temperature
 
 #: The temperatures of the two viscosities and of the density of a data sheet, K.
 AT_40, AT_100, AT_15 = 313.15, 373.15, 288.15
@@ -139,24 +138,24 @@ class DataSheet(ByValue):
     def at(self, temperature: Temperature) -> NominalState:
         """The numbers at a ``temperature``, K; NaN for elements of an array that no oil is computed at."""
         allowed = is_concrete(temperature) or within_bounds(SHEET_TEMPERATURE.info, temperature)
-        number_40 = equations.walther_number(self.kinematic_viscosity_40)
-        number_100 = equations.walther_number(self.kinematic_viscosity_100)
-        slope = equations.walther_slope(AT_40, number_40, AT_100, number_100)
-        number = equations.walther_number_at(temperature, AT_40, number_40, slope)
-        nu = equations.kinematic_viscosity_of_walther_number(number)
+        number_40 = viscosity_temperature.walther_number(self.kinematic_viscosity_40)
+        number_100 = viscosity_temperature.walther_number(self.kinematic_viscosity_100)
+        slope = viscosity_temperature.walther_slope(AT_40, number_40, AT_100, number_100)
+        number = viscosity_temperature.walther_number_at(temperature, AT_40, number_40, slope)
+        nu = viscosity_temperature.kinematic_viscosity_of_walther_number(number)
         for _ in range(_STEPS):
-            nu = equations.refined_kinematic_viscosity(
-                nu, number, equations.walther_number(nu), equations.walther_number_slope(nu)
+            nu = viscosity_temperature.refined_kinematic_viscosity(
+                nu, number, viscosity_temperature.walther_number(nu), viscosity_temperature.walther_number_slope(nu)
             )
         nu = nu if allowed is True else namespace(nu).where(allowed, nu, float("nan"))
-        density = equations.oil_density(
-            self.density_15, equations.oil_expansion_coefficient(self.density_15), temperature, AT_15
+        density = viscosity_temperature.oil_density(
+            self.density_15, viscosity_temperature.oil_expansion_coefficient(self.density_15), temperature, AT_15
         )
         return NominalState(
             rheology.dynamic_viscosity(nu, density),
             rheology.pressure_viscosity_estimate(nu),
-            equations.walther_temperature_coefficient(
-                temperature, nu, number, slope, equations.walther_number_slope(nu)
+            viscosity_temperature.walther_temperature_coefficient(
+                temperature, nu, number, slope, viscosity_temperature.walther_number_slope(nu)
             ),
             density,
         )
@@ -177,10 +176,10 @@ def _viscosity_index(U: float, Y: float) -> float:
     row = next((row for row in reversed(_reference_oils()) if row["viscosity"] <= 1e6 * Y), None)
     if row is None:
         return math.nan
-    L, H = (equations.reference_viscosity(Y, *row[oil]) for oil in ("L", "H"))
+    L, H = (viscosity_temperature.reference_viscosity(Y, *row[oil]) for oil in ("L", "H"))
     if U > H:
-        return float(equations.viscosity_index_up_to_100(U, L, H))
-    return float(equations.viscosity_index_above_100(U, Y, H))
+        return float(viscosity_temperature.viscosity_index_up_to_100(U, L, H))
+    return float(viscosity_temperature.viscosity_index_above_100(U, Y, H))
 
 
 @functools.cache

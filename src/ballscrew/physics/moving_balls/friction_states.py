@@ -34,7 +34,7 @@ from ballscrew.basis.quantities import (
     RotationalStiffness,
     Torque,
 )
-from ballscrew.physics.equations import friction_states as equations
+from ballscrew.physics.equations import friction_states
 from ballscrew.physics.moving_balls.reversal import Loop, Reversal
 
 Vector: TypeAlias = NDArray[np.float64]
@@ -151,7 +151,7 @@ class Dahl:
 
     def torque(self, screw_angle: Angle, initial_torque: Torque) -> Torque:
         """Torque that is wound up after an angle, :func:`~ballscrew.physics.equations.friction_states.dahl_torque`."""
-        return equations.dahl_torque(self.presliding_stiffness, self.coulomb_torque, initial_torque, screw_angle)
+        return friction_states.dahl_torque(self.presliding_stiffness, self.coulomb_torque, initial_torque, screw_angle)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -177,8 +177,11 @@ class LuGre:
         :func:`~ballscrew.physics.equations.friction_states.lugre_torque`.
         """
         sigma_0, M_c = self.presliding_stiffness, self.coulomb_torque
-        wound = equations.dahl_torque(sigma_0, M_c, initial_torque, screw_angle)
-        return equations.lugre_torque(wound, M_c, self.micro_damping, self.viscous_slope, screw_speed) + self.dry_torque
+        wound = friction_states.dahl_torque(sigma_0, M_c, initial_torque, screw_angle)
+        return (
+            friction_states.lugre_torque(wound, M_c, self.micro_damping, self.viscous_slope, screw_speed)
+            + self.dry_torque
+        )
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -282,7 +285,9 @@ def fit_lugre(
     """
     dahl = fit_dahl(curve)
     sigma_0 = dahl.model.presliding_stiffness
-    sigma_1 = 0.0 if moment_of_inertia is None else equations.micro_damping(sigma_0, moment_of_inertia, damping_ratio)
+    sigma_1 = (
+        0.0 if moment_of_inertia is None else friction_states.micro_damping(sigma_0, moment_of_inertia, damping_ratio)
+    )
     model = LuGre(
         presliding_stiffness=sigma_0,
         coulomb_torque=dahl.model.coulomb_torque,
@@ -353,7 +358,7 @@ def gms_torque(elements: Sequence[SlipElement], screw_angles: Array, *, initial_
     angles = np.asarray(screw_angles, dtype=float)
     values = np.empty(angles.shape)
     for i, turned in enumerate(np.diff(angles, prepend=angles[:1])):
-        held = equations.slip_element_torque(k, M_s, held, turned)
+        held = friction_states.slip_element_torque(k, M_s, held, turned)
         values[i] = held.sum()
     return values
 
@@ -398,7 +403,7 @@ def _fitted_dahl(curve: WindingUp, weights: Vector) -> DahlFit:
     angle, torque, M_c = np.asarray(curve.screw_angle, dtype=float), np.asarray(curve.torque), curve.coulomb_torque
 
     def squares(logarithm: float) -> float:
-        off = equations.dahl_torque(math.exp(logarithm), M_c, curve.initial_torque, angle) - torque
+        off = friction_states.dahl_torque(math.exp(logarithm), M_c, curve.initial_torque, angle) - torque
         return float(weights @ off**2)
 
     stiffness = math.exp(_minimum(squares, math.log(0.01 * M_c / angle[-1]), math.log(100 * M_c / angle[angle > 0][0])))
@@ -421,7 +426,7 @@ def of_elements(elements: Sequence[SlipElement], curve: WindingUp) -> Vector:
     share = 0.0 if curve.from_rest else -1.0
     return np.sum(
         [
-            equations.slip_element_torque(one.stiffness, one.slip_torque, share * one.slip_torque, angle)
+            friction_states.slip_element_torque(one.stiffness, one.slip_torque, share * one.slip_torque, angle)
             for one in elements
         ],
         axis=0,

@@ -25,8 +25,7 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
-from ballscrew.physics.equations import nut_losses
-from ballscrew.physics.equations import ripple as equations
+from ballscrew.physics.equations import nut_losses, ripple
 from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
@@ -273,15 +272,15 @@ def kinematic_orders(zone: LoadedZone, balls: Count, circuit_length: Length) -> 
     L, d_w = float(zone.path_radius), zone.ball_diameter
     advance = float(zone.natural_speed)
     gamma = 1 - 2 * advance / L  # as s_o = L (1 - γ) / 2
-    pitch = equations.loaded_ball_pitch(zone.length, circuit_length, balls, d_w)
-    ball_pass = float(equations.ball_pass_order(advance, pitch))
+    pitch = ripple.loaded_ball_pitch(zone.length, circuit_length, balls, d_w)
+    ball_pass = float(ripple.ball_pass_order(advance, pitch))
     return {
         "screw": 1.0,
         **{"ball pass" if m == 1 else f"ball pass {m}": m * ball_pass for m in range(1, HARMONICS + 1)},
-        "cage": float(equations.cage_order(gamma)),
-        "screw over balls": float(equations.over_balls_order(gamma)),
-        "ball spot": float(equations.ball_spot_order(nut_losses.ball_turns(L, gamma, d_w))),
-        "circulation": float(equations.circulation_order(ball_pass, balls)),
+        "cage": float(ripple.cage_order(gamma)),
+        "screw over balls": float(ripple.over_balls_order(gamma)),
+        "ball spot": float(ripple.ball_spot_order(nut_losses.ball_turns(L, gamma, d_w))),
+        "circulation": float(ripple.circulation_order(ball_pass, balls)),
     }
 
 

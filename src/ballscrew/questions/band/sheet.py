@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import (
@@ -31,20 +32,44 @@ from ballscrew.basis.output.sheet import (
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, title
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.cases.case_files.uncertain_inputs import GIVEN, Uncertain
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.bands import BandCurve, Interval, OutputBand
-from ballscrew.engine.uncertainty.one_at_a_time import Swing
+from ballscrew.engine.uncertainty.one_at_a_time import Swing, one_at_a_time
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.document import verdicts, warnings
-from ballscrew.questions.band.tornado import Tornado
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.shared.report_blocks import sentence
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Tornado:
+    """The friction torque of a case with one uncertain input at a time at either end, and its band."""
+
+    swings: Sequence[Swing]
+    torque: OutputBand
+    level: float
+    inputs: Mapping[str, Uncertain]
+
+
+def tornado(case: Case, report: BandReport) -> Tornado:
+    """The tornado of a case with the inputs and the level of its band."""
+    swings = one_at_a_time(
+        case.model,
+        case.screw,
+        case.lubricant,
+        uncertain={name: one.distribution for name, one in report.inputs.items()},
+        axial_load=case.operation.axial_load,
+        screw_speed=case.operation.screw_speed,
+        level=report.band.level,
+    )
+    return Tornado(swings, report.band["screw_torque"], report.band.level, report.inputs)
+
 
 _RESULT = quantities_of(FrictionResult)
 _TORQUE = _RESULT["screw_torque"]

@@ -6,13 +6,66 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Any
 
+import tomlkit
+
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned
 from ballscrew.basis.quantities import Quantity, quantities_of
-from ballscrew.cases.screw_tables.catalogue import DERIVED, FIELDS, assumed, notes
+from ballscrew.basis.records import documents
+from ballscrew.basis.version import __version__
+from ballscrew.cases.screw_tables.catalogue import DERIVED, FIELDS, assumed, case_text, notes
 from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, CatalogueRow
-from ballscrew.physics.sizing.own_nut import RATED
+from ballscrew.physics.sizing.own_nut import RATED, Estimate, OwnNut
 from ballscrew.physics.sizing.ratings import ratings_of
+
+_COLUMNS = ("estimated", "value", "from", "to", "where it is from")
+
+
+def document(own_nut: OwnNut) -> dict[str, Any]:
+    """The nut as the tables of a case, what was estimated with its band in SI, and what does not go together."""
+    return {
+        "name": own_nut.row.name,
+        "case": tomlkit.parse(case_text(own_nut.row, own_nut.estimates)).unwrap(),
+        "estimates": [_estimate(one) for one in own_nut.estimates],
+        "warnings": documents(own_nut.warnings),
+        "provenance": {"version": __version__},
+    }
+
+
+def _estimate(one: Estimate) -> dict[str, Any]:
+    return {
+        "name": one.name,
+        "value": one.value,
+        "low": one.low,
+        "high": one.high,
+        "unit": one.quantity.unit,
+        "shown_in": one.quantity.shown_in,
+        "source": one.source,
+    }
+
+
+def text(own_nut: OwnNut) -> str:
+    """What was estimated, one line each, and what does not go together."""
+    rows = [
+        (
+            one.name.replace("_", " "),
+            *(units.shown(value, one.quantity, digits=4) for value in _values(one)),
+            one.source,
+        )
+        for one in own_nut.estimates
+    ]
+    lines = aligned([_COLUMNS, *rows], (0, len(_COLUMNS) - 1))
+    return "\n".join([*lines, *(f"warning: {line}" for line in warnings(own_nut))])
+
+
+def warnings(own_nut: OwnNut) -> list[str]:
+    """What does not go together, in words."""
+    return [one.text for one in own_nut.warnings]
+
+
+def _values(one: Estimate) -> tuple[float, float, float]:
+    return one.value, one.low, one.high
+
 
 #: Columns of the list: a row of the catalogue in the units people think in.
 _LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source", "")

@@ -8,29 +8,37 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, NamedTuple
 
+from pydantic import Field
+
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantities_of
-from ballscrew.basis.records import Record, Severity
-from ballscrew.cases.case_files import case_file, descriptions, nut_tables
+from ballscrew.basis.records import Record, Severity, documents
+from ballscrew.cases.case_files import case_file, descriptions, nut_tables, provenance
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.option_faults import OPTIONS, in_options
 from ballscrew.cases.screw_tables import catalogue
-from ballscrew.cases.screw_tables.nut_kinds import LISTED
+from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_of
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.check_table import half_loads
-from ballscrew.physics.sizing.checks import Check, all_hold, checks, verdict_at_point
+from ballscrew.physics.sizing.checks import Check, all_hold, checks, judged, verdict_at_point
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
 from ballscrew.questions.check.options import flags
-from ballscrew.questions.run.compute import Run, with_nut
-from ballscrew.questions.run.nut_state import NutState
-from ballscrew.questions.shared.check_lines import with_unlikely
+from ballscrew.questions.run import answer as run
+from ballscrew.questions.run.answer import RunResults, results
+from ballscrew.questions.run.compute import NutLoads, NutState, Run, with_nut
+from ballscrew.questions.run.response import VENDOR_ROWS
+from ballscrew.questions.shared.answer_parts import JudgedCheck
+from ballscrew.questions.shared.check_lines import source_document, with_unlikely
+from ballscrew.questions.shared.declared import response, with_answers
+from ballscrew.questions.shared.envelope import numbers
 from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of
 from ballscrew.questions.shared.own_screws import tables_of_row
+from ballscrew.questions.warm_up.answer import with_self_heating
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
@@ -354,3 +362,62 @@ def _computed(case: case_file.Case) -> Ratings | None:
         return nut_tables.ratings(case.screw, case.row)
     except InputError:
         return None
+
+
+class OneCheck(JudgedCheck):
+    """A check with its text for people."""
+
+    passes: bool | None = Field(description="as ``holds``")
+    words: str = Field(description="as ``text``")
+
+
+class Beside(with_answers(geometry=Geometry, loads=NutLoads, vendor_rows=VENDOR_ROWS, ratings=BothRatings)):
+    """What the checks of a case have beside its results."""
+
+    checks: list[OneCheck]
+    judged: int = Field(description="number of the checks that were judged; the others lack an input")
+    holds: bool = Field(description="true where all checks were judged and hold")
+    verdict: str
+    nut: str = Field(description="kind of the nut; a case without one is checked with a single nut")
+    assumed: list[str]
+
+
+class Checks(response(RunResults, "Checks", beside=Beside)):
+    """The checks of a case, with its results."""
+
+
+def document(checked: Checked) -> dict[str, Any]:
+    """The document of one screw, in SI."""
+    return with_self_heating(_document(checked), checked.heating)
+
+
+def _document(checked: Checked) -> dict[str, Any]:
+    case, beside = checked.case, {**run.beside(checked.run), "geometry": checked.geometry, "ratings": checked.ratings}
+    return {
+        "name": checked.name,
+        "nut": kind_of(checked.nut.nut),
+        "inputs": case_file.inputs(case),
+        **numbers(results=results(checked.run), **beside),
+        "checks": [check_document(check) for check in checked.checks],
+        "judged": judged(checked.checks),
+        "holds": checked.holds,
+        "verdict": checked.verdict,
+        "verdicts": documents(checked.verdicts),
+        "assumed": list(checked.assumed),
+        "warnings": documents(checked.run.warnings),
+        "provenance": provenance.of_case(case),
+    }
+
+
+def list_document(results: Sequence[Checked]) -> list[dict[str, Any]]:
+    """The documents of many screws, without the loads ball by ball."""
+    listed = [document(screw) for screw in results]
+    for result in listed:
+        del result["loads"]["balls"], result["units"]["loads"]["balls"]
+    return listed
+
+
+def check_document(check: Check) -> dict[str, Any]:
+    """A check as a record, what it lacks, its source, and ``name``, ``utilisation``, ``passes`` and ``words``."""
+    older = {"name": check.name, "utilisation": check.utilisation, "passes": check.holds, "words": check.text}
+    return {**check.record.document(), "missing": check.missing, **source_document(check), **older}

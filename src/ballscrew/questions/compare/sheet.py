@@ -33,7 +33,7 @@ from ballscrew.physics.friction.plausibility import IMPLAUSIBLE
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.questions.compare.compute import models_without_nut, percent, verdicts, warnings
-from ballscrew.questions.shared.chart_colours import colour_of
+from ballscrew.questions.shared.charts import colour_of
 
 #: Headings of the mechanisms where there is little room.
 SHORT: Mapping[str, str] = {

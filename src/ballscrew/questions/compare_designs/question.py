@@ -21,7 +21,7 @@ class CompareOptions:
 
 def _prepare(request: Request) -> Work:
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.compare_designs.compute import is_one_case
+    from ballscrew.questions.compare_designs.answer import is_one_case
 
     options = request.options(CompareOptions)
     paths = request.files["cases"]
@@ -37,7 +37,7 @@ def _models(request: Request, options: CompareOptions) -> Work:
     """The comparison of models and laws on one case."""
     from ballscrew.questions.compare.compute import comparison, document
     from ballscrew.questions.compare.sheet import sheet
-    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
+    from ballscrew.questions.warm_up.answer import with_self_heating
 
     case = request.load()
 
@@ -60,8 +60,7 @@ def _models(request: Request, options: CompareOptions) -> Work:
 
 def _designs(request: Request, options: CompareOptions) -> Work:
     """The comparison of several designs."""
-    from ballscrew.questions.compare_designs.compute import document, side_by_side
-    from ballscrew.questions.compare_designs.sheet import sheet
+    from ballscrew.questions.compare_designs.answer import document, sheet, side_by_side
 
     def answer(_: object) -> Answer:
         designs = side_by_side(request.files["cases"], own=options.own, **vars(request.case_options))
@@ -76,7 +75,7 @@ def _response() -> Any:
     return Compare
 
 
-QUESTION = Question(
+COMPARE = Question(
     name="compare",
     help="""Models and laws side by side, or several designs.
 

@@ -6,9 +6,23 @@ import dataclasses
 from pathlib import Path
 from typing import Annotated, Any
 
-from ballscrew.questions.duty.options import DutyOptions
+from ballscrew.questions.shared.log_options import OnlyGiven, number_of_samples
 from ballscrew.questions.shared.options import Option
 from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Sent, Work
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DutyOptions:
+    """What is asked of a duty: a band of its torques and energies."""
+
+    band: Annotated[bool, Option("Band of torques and energies, by uncertain inputs.")] = False
+    samples: Annotated[int | None, number_of_samples("samples, 1024")] = None
+    only_given: OnlyGiven = False
+
+    @property
+    def is_banded(self) -> bool:
+        """True where a band is asked for, by itself or by one of its options."""
+        return self.band or self.only_given or self.samples is not None
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -23,8 +37,8 @@ class TraceOptions:
 
 def _prepare(request: Request) -> Work:
     from ballscrew.cases.schema.duty_schema import TRAJECTORY
-    from ballscrew.questions.duty import answer as documents
     from ballscrew.questions.duty import compute
+    from ballscrew.questions.duty.answer import document, with_band
     from ballscrew.questions.duty.sheet import sheet
 
     options, trace = request.options(DutyOptions), request.options(TraceOptions).trace
@@ -38,11 +52,11 @@ def _prepare(request: Request) -> Work:
         report = compute.duty(case)
         size = f"{len(report.duty.states.time)} states"
         if not options.is_banded:
-            return Answer(sheet(report), lambda: documents.document(report), size)
+            return Answer(sheet(report), lambda: document(report), size)
         from ballscrew.questions.duty.band import band  # loads xarray
 
         bands = band(report, options.samples, only_given=options.only_given, done=done)
-        return Answer(sheet(report, bands), lambda: documents.with_band(bands), size)
+        return Answer(sheet(report, bands), lambda: with_band(bands), size)
 
     return Work(answer, "band" if options.is_banded else "")
 
@@ -54,7 +68,7 @@ def _response() -> Any:
     return response(DutyReport, "Duty", judged=True)
 
 
-QUESTION = Question(
+DUTY = Question(
     name="duty",
     help="""Motor torque, energy, brake and life over a cycle.
 

@@ -35,8 +35,8 @@ from ballscrew.basis.output.sheet import (
     lines,
     verdict_lines,
     warning_lines,
+    words,
 )
-from ballscrew.basis.output.sheet import words as words_of
 from ballscrew.basis.quantities import Info, Quantity, quantities_of
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
@@ -46,8 +46,8 @@ from ballscrew.evidence.calibration.next_test import NextTest
 from ballscrew.evidence.calibration.problem import TORQUE_WANDER
 from ballscrew.files.torque_logs.log_rows import quantities
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.fit.answer import results
 from ballscrew.questions.fit.compute import FitReport
+from ballscrew.questions.fit.document import results
 from ballscrew.questions.fit.log import CONDITIONS
 from ballscrew.questions.shared.declared import cells
 from ballscrew.questions.shared.log_points import Numbers, some
@@ -236,7 +236,7 @@ def _trends(model: CalibratedModel) -> Table:
         rows.append(
             [spoken(name), *(f"{100 * mean / typical:+.1f} ± {100 * error / typical:.1f}" for mean, error in pairs)]
         )
-    size = words_of(Number(typical, _TORQUE, 3))
+    size = words(Number(typical, _TORQUE, 3))
     note = f"Predicted less measured, means by fifths of the rows, in % of {size}."
     return Table("residuals", "Residuals", ("", *_FIFTHS), rows, [note])
 

@@ -5,14 +5,18 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import PurePath
+from pathlib import Path, PurePath
 from typing import Any
 
+from pydantic import Field
+
 from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export, Option, WorstError
 from ballscrew.exports.targets import TARGETS, options_of
-from ballscrew.questions.shared.declared import from_attributes, parts_like
+from ballscrew.questions.shared.answer_parts import Closed, Tables
+from ballscrew.questions.shared.declared import from_attributes, parts_like, response
 from ballscrew.questions.shared.envelope import envelope
 
 
@@ -60,3 +64,97 @@ def _written(option: Option) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return ""
     return str(value) if option.quantity is None else units.shown(value, option.quantity)
+
+
+class Choice(Closed):
+    """A choice that a target has."""
+
+    name: str
+    default: str
+    meaning: str
+
+
+class Target(Closed):
+    """A target of a hand-over."""
+
+    name: str
+    meaning: str
+    options: list[Choice]
+
+
+class Targets(Closed):
+    """The targets of a hand-over."""
+
+    targets: list[Target]
+
+
+class SentContent(Closed):
+    """A file of a hand-over, or a zip archive of several."""
+
+    name: str
+    media_type: str
+    base64: str
+
+
+class HandOverWords(Closed):
+    """What a hand-over says: ranges, worst errors, warnings."""
+
+    lines: list[str]
+    ranges: list[str] = Field(description="ranges and worst errors alone")
+
+
+class Beside(Closed):
+    """What stands beside the results of a hand-over."""
+
+    provenance: Tables
+    words: HandOverWords
+    file: SentContent
+
+
+HandOver: Any = response(HandOverResults, "HandOver", beside=Beside)
+
+
+def text(export: Export, written: Sequence[Path]) -> str:
+    """The files, the range, the worst error of each output, and the warnings."""
+    return "\n".join(map(wrapped, [*(f"{path}" for path in written), *lines(export)]))
+
+
+def lines(export: Export) -> list[str]:
+    """The range, the worst error of each output, and the warnings, one line each."""
+    names: list[str] = []
+    for heading, entries in blocks(export):
+        names += [heading, *(f"  {entry}" for entry in entries)]
+    return [*names, *(f"warning: {record.text}" for record in export.warnings)]
+
+
+def blocks(export: Export) -> list[tuple[str, list[str]]]:
+    """Headings and what stands below them: the range of each input, and the worst error of each output."""
+    ranges = [_ends(name, ends, export) for name, ends in export.valid_range.items()]
+    pairs = [("range, beyond which the nearest value counts and valid is 0:", ranges)]
+    if export.worst_error:
+        over = "; ".join(_of_range(name, ends, export) for name, ends in export.measured_range.items())
+        heading = f"worst error against the model at random points, {over}:"
+        pairs.append((heading, [_error(one) for one in export.worst_error]))
+    return pairs
+
+
+def _ends(name: str, ends: tuple[float, float], export: Export) -> str:
+    least, greatest = (units.shown(end, export.quantities[name]) for end in ends)
+    if ends[0] == ends[1]:
+        return f"{name}: {least}"
+    return f"{name}: {least} to {greatest}"
+
+
+def _of_range(name: str, ends: tuple[float, float], export: Export) -> str:
+    least, greatest = (units.shown(end, export.quantities[name]) for end in ends)
+    if ends[0] == ends[1]:
+        return f"{name} {least}"
+    return f"{name} {least} to {greatest}"
+
+
+def _error(one: WorstError) -> str:
+    if one.output == "valid":
+        differs = "the same at all" if one.value == 0 else "differs at some of"
+        return f"valid: {differs} {one.points} points"
+    written = f"{one.value:.2g}" + ("" if one.unit == "1" else f" {one.unit}")
+    return f"{one.output}: {written}, relative {one.relative:.2g}, of its largest value {one.of_largest:.2g}"

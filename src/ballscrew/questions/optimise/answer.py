@@ -9,12 +9,12 @@ from typing import Annotated, Any
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import Record, documents
 from ballscrew.physics.sizing.checks import judged
-from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.check import compute
 from ballscrew.questions.optimise.compute import Member, Optimisation
-from ballscrew.questions.optimise.design_space import VARIABLES, SearchOptions
+from ballscrew.questions.optimise.design_model import VARIABLES, SearchOptions
 from ballscrew.questions.select.answer import OneObjective, need_document, objective
 from ballscrew.questions.select.candidates import Starved
-from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.select.requirements import OBJECTIVES
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import FINITE, from_attributes, parts_like, table_of
 
@@ -58,7 +58,7 @@ class Front:
 def document(optimisation: Optimisation) -> dict[str, Any]:
     """The document in SI; ``results`` and ``checks`` of a member are those of ``ballscrew check --json``."""
     space = optimisation.space
-    first = check_documents.list_document([optimisation.members[0].checked])[0] if optimisation.members else {}
+    first = compute.list_document([optimisation.members[0].checked])[0] if optimisation.members else {}
     units = {name: unit for name, unit in first.get("units", {}).items() if name != "loads"}
     search = from_attributes(
         Search,
@@ -93,11 +93,11 @@ def warnings(optimisation: Optimisation) -> list[Record]:
 
 
 def _member(member: Member) -> dict[str, Any]:
-    whole = check_documents.list_document([member.checked])[0]
+    whole = compute.list_document([member.checked])[0]
     return {
         **declared.document(from_attributes(OneMember, member)),
         "results": whole["results"],
-        "checks": [check_documents.check_document(check) for check in member.checks],
+        "checks": [compute.check_document(check) for check in member.checks],
         "judged": judged(member.checks),
         **{name: part for name, part in whole.items() if name not in _LEFT_OUT},
         "case": dict(member.case),

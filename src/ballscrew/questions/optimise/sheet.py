@@ -28,12 +28,11 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.questions.check import sheet as check_sheet
+from ballscrew.questions.check.sheet import cells
 from ballscrew.questions.optimise.answer import warnings
 from ballscrew.questions.optimise.compute import Member, Optimisation, Plan
-from ballscrew.questions.optimise.design_model import OF_MODEL
-from ballscrew.questions.optimise.design_space import VARIABLES
-from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.optimise.design_model import OF_MODEL, VARIABLES
+from ballscrew.questions.select.requirements import OBJECTIVES
 from ballscrew.questions.select.sheet import LABELS, asked
 
 _HEADINGS = {
@@ -169,7 +168,7 @@ def _cells(member: Member) -> Cells:
             values[objective.quantity.name] = (member.objectives[name], objective.quantity)
     for check in member.checks:
         values[f"{check.name.replace('_', ' ')} utilisation"] = (check.utilisation, None)
-    return {**values, **check_sheet.cells(member.checked)}
+    return {**values, **cells(member.checked)}
 
 
 # -- charts ---------------------------------------------------------------------------------------

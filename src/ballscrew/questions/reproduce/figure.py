@@ -11,9 +11,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ballscrew.cases.case_files import descriptions
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.friction.result import MECHANISMS
-from ballscrew.questions.reproduce.shown_models import MEANING, TITLES
+from ballscrew.questions.reproduce.preloaded_nut import DRAG, PICTURE, PreloadedNut, label_of, level
+from ballscrew.questions.reproduce.reproduction import MEANING, TITLES
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import Columns, Plot
 
@@ -275,11 +277,11 @@ def influence_plot(influence: Influence) -> Plot:
 
     def table(data: xr.Dataset) -> Columns:
         columns: dict[str, Any] = {"screw speed (rpm)": _rpm(data)}
-        for output, (words, unit) in _OUTPUTS.items():
+        for output, (label, unit) in _OUTPUTS.items():
             for value in data[influence.dimension].to_numpy():
                 for name in TITLES:
                     curve = data[f"{influence.prefix}_{output}"].sel({influence.dimension: value, "model": name})
-                    heading = f"{words}, {influence.symbol} {influence.label(float(value))}, {name} ({unit})"
+                    heading = f"{label}, {influence.symbol} {influence.label(float(value))}, {name} ({unit})"
                     columns[heading] = curve.to_numpy()
         return columns
 
@@ -292,13 +294,13 @@ _OUTPUTS = {"screw_torque": ("friction torque on screw", "N m"), "efficiency": (
 
 
 def _speed_table(*variables: tuple[str, str, str]) -> Callable[[xr.Dataset], Columns]:
-    """Columns over speed for variables given as (name, words, unit), one for each model."""
+    """Columns over speed for variables given as (name, label, unit), one for each model."""
 
     def table(data: xr.Dataset) -> Columns:
         columns: dict[str, Any] = {"screw speed (rpm)": _rpm(data)}
-        for variable, words, unit in variables:
+        for variable, label, unit in variables:
             for name in TITLES:
-                columns[f"{words}, {name} ({unit})"] = data[variable].sel(model=name).to_numpy()
+                columns[f"{label}, {name} ({unit})"] = data[variable].sel(model=name).to_numpy()
         return columns
 
     return table
@@ -356,3 +358,52 @@ PLOTS = (
     ),
     *(influence_plot(influence) for influence in INFLUENCES),
 )
+
+
+_BAR = 0.5
+
+
+def band_and_rules(preloaded_nut: PreloadedNut) -> Figure:
+    """The band of the model as a bar, with its value and its median; below it a point for each rule."""
+    here = preloaded_nut.unloaded
+    torque = here.band.band["screw_torque"]
+    caption = (
+        f"{descriptions.title(here.case)}; {descriptions.design(here.case)}. Bar: {level(here)} of "
+        f"{here.band.band.count} samples of uncertain inputs and laws. "
+        "Without seals, because the makers' rules leave them out."
+    )
+    figure, (panel,) = charts.new_figure(caption, columns=1, height=2.4)
+    panel.barh(0, torque.both.high - torque.both.low, _BAR, left=torque.both.low, color=charts.SKY)
+    ends = [-_BAR / 2, _BAR / 2]
+    panel.plot([torque.median] * 2, ends, color=charts.INK, linestyle=":", label="median of the samples")
+    panel.plot([torque.value] * 2, ends, color=charts.INK, label="at the values of the case")
+    labels = ["reference model"]
+    rules = preloaded_nut.rules
+    for place, one in enumerate(rules, start=1):
+        colour = charts.RED if one.beside.by_rule.is_own else charts.ORANGE
+        panel.plot(float(one.beside.by_rule.torque), place, "o", color=colour)
+        labels.append(label_of(one))
+    panel.axvspan(*torque.both, color=charts.LIGHT_SHADE, zorder=0)
+    panel.set_yticks(range(len(labels)), labels)
+    panel.set_ylim(len(labels) - 0.5, -0.6)
+    panel.set_xlim(left=0)
+    panel.set_xlabel(f"{DRAG} (N m)")
+    panel.grid(visible=False, axis="y")
+    panel.tick_params(axis="y", length=0)
+    figure.legend(loc="outside upper right", ncols=2)
+    return figure
+
+
+def _columns(preloaded_nut: PreloadedNut) -> Columns:
+    torque = preloaded_nut.unloaded.band.band["screw_torque"]
+    rules = preloaded_nut.rules
+    return {
+        "of": ["reference model", *(label_of(one) for one in rules)],
+        f"{DRAG} (N m)": [torque.value, *(float(one.beside.by_rule.torque) for one in rules)],
+        "least of the band (N m)": [torque.both.low, *[""] * len(rules)],
+        "greatest of the band (N m)": [torque.both.high, *[""] * len(rules)],
+        "within the band (1 = yes)": ["", *(int(one.is_in_band) for one in rules)],
+    }
+
+
+PLOT = Plot(PICTURE, band_and_rules, _columns)

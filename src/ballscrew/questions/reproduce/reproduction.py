@@ -23,11 +23,24 @@ from ballscrew.basis.atomic_files import write_error
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.references import paper_equations
 from ballscrew.basis.version import __version__
-from ballscrew.evidence.papers import olaru2005 as paper
-from ballscrew.questions.reproduce import preloaded_nut as nuts
-from ballscrew.questions.reproduce import preloaded_nut_text as nut_words
+from ballscrew.evidence.papers import olaru2005
+from ballscrew.questions.reproduce import preloaded_nut
 from ballscrew.questions.shared.report_blocks import sentence
 from ballscrew.questions.shared.text_tables import markdown_table
+
+#: Short labels.
+LABELS: Mapping[str, str] = {"olaru2005": "as printed", "corrected": "corrected"}
+#: What stands above the panels.
+TITLES: Mapping[str, str] = {
+    "olaru2005": f"{LABELS['olaru2005']}: the paper's equations",
+    "corrected": f"{LABELS['corrected']}: without its misprints",
+}
+#: The same in full, for captions.
+MEANING = (
+    "As printed: the paper's equations, with the square root in λ that they need. Corrected: without its misprints, "
+    "and with the reactions that it leaves out."
+)
+
 
 Report = Callable[[str, int, int], None]
 
@@ -50,9 +63,9 @@ SHORT_TABLE = (
 _MODELS = ("olaru2005", "corrected")
 _LITERAL = "olaru2005-literal"
 _LABELS = ("as printed", "corrected", "to the letter")
-_FAILURES_FIRST = (paper.Verdict.FAILS, paper.Verdict.OPEN, paper.Verdict.HOLDS)
-_COUNTED = (paper.Verdict.HOLDS, paper.Verdict.FAILS, paper.Verdict.OPEN)
-_WORDS = {paper.Verdict.HOLDS: "yes", paper.Verdict.FAILS: "no", paper.Verdict.OPEN: "cannot be checked"}
+_FAILURES_FIRST = (olaru2005.Verdict.FAILS, olaru2005.Verdict.OPEN, olaru2005.Verdict.HOLDS)
+_COUNTED = (olaru2005.Verdict.HOLDS, olaru2005.Verdict.FAILS, olaru2005.Verdict.OPEN)
+_WORDS = {olaru2005.Verdict.HOLDS: "yes", olaru2005.Verdict.FAILS: "no", olaru2005.Verdict.OPEN: "cannot be checked"}
 #: Symbols of the claims.
 _SYMBOLS = (
     ("Y", "offset of the lines of pure rolling from the middle of the contact, as a share of its semi-axis"),
@@ -132,41 +145,39 @@ def _whole_folder(out: Path) -> Generator[_Folder]:
 
 def _write(folder: _Folder, report: Report) -> list[str]:
     # matplotlib takes its time: only once the folder is known to be writable
-    from ballscrew.questions.reproduce import ball_figure as ball
-    from ballscrew.questions.reproduce import figure as figures
-    from ballscrew.questions.reproduce import preloaded_nut_figure as nut_figure
+    from ballscrew.questions.reproduce import ball_figure, figure
     from ballscrew.questions.shared import charts
 
-    total, done = len(ball.PLOTS) + len(figures.PLOTS) + 5, 0
+    total, done = len(ball_figure.PLOTS) + len(figure.PLOTS) + 5, 0
 
     def step(what: str) -> None:
         nonlocal done
         done += 1
         report(what, done, total)
 
-    data = paper.curves()
+    data = olaru2005.curves()
     # in memory first: on a full disk HDF5 ends worse than in an OSError
     (folder.path / "data.nc").write_bytes(data.to_netcdf(engine="h5netcdf"))
     step("curves of the figures")
-    result, checks = paper.claims(), paper.closure_checks()
+    result, checks = olaru2005.claims(), olaru2005.closure_checks()
     step("claims of the paper")
-    nut = nuts.preloaded_nut()
+    nut = preloaded_nut.preloaded_nut()
     step("a preloaded nut by the reference model")
     with charts.house_style():
-        results = ball.drawn_results()
-        drawings: list[tuple[charts.Plot, Any]] = [(plot, results) for plot in ball.PLOTS]
-        drawings += [(plot, data) for plot in figures.PLOTS]
+        results = ball_figure.drawn_results()
+        drawings: list[tuple[charts.Plot, Any]] = [(plot, results) for plot in ball_figure.PLOTS]
+        drawings += [(plot, data) for plot in figure.PLOTS]
         names = [plot.name for plot, _ in drawings]
-        drawings.append((nut_figure.PLOT, nut))
+        drawings.append((figure.PLOT, nut))
         for plot, source in drawings:
             charts.save(plot.draw(source), folder.path, plot.name)
             _write_text(folder.path / f"{plot.name}.csv", _csv(plot.table(source)))
             step(plot.name)
-    _write_text(folder.path / nuts.CASE_FILE, nuts.CASE)
-    _write_text(folder.path / nut_words.PAGE_FILE, nut_words.page(nut))
+    _write_text(folder.path / preloaded_nut.CASE_FILE, preloaded_nut.CASE)
+    _write_text(folder.path / preloaded_nut.PAGE_FILE, preloaded_nut.page(nut))
     _write_text(folder.path / "claims.md", claims_document(result, checks, names))
     step("claims.md")
-    return [f"The paper: {counts(result)}.", *nut_words.lines(nut)]
+    return [f"The paper: {counts(result)}.", *preloaded_nut.lines(nut)]
 
 
 def _write_text(path: Path, text: str) -> None:
@@ -189,9 +200,9 @@ def _cell(value: Any) -> str:
 # -- words ----------------------------------------------------------------------------------------
 
 
-def claims_table(claims: Sequence[paper.Claim] | None = None, keys: Sequence[str] | None = SHORT_TABLE) -> str:
+def claims_table(claims: Sequence[olaru2005.Claim] | None = None, keys: Sequence[str] | None = SHORT_TABLE) -> str:
     """The claims as a short table in Markdown, those that fail first; ``keys=None`` takes all, in the paper's order."""
-    every = paper.claims() if claims is None else claims
+    every = olaru2005.claims() if claims is None else claims
     chosen = [claim for claim in every if keys is None or claim.key in keys]
     if keys is not None:
         chosen.sort(key=lambda claim: min(_FAILURES_FIRST.index(claim.findings[name].verdict) for name in _MODELS))
@@ -201,14 +212,14 @@ def claims_table(claims: Sequence[paper.Claim] | None = None, keys: Sequence[str
     return markdown_table(("claim", "paper", "as printed", "corrected", "holds?"), rows)
 
 
-def _holds(claim: paper.Claim) -> str:
+def _holds(claim: olaru2005.Claim) -> str:
     """One word if both models agree, else one for each."""
     printed, corrected = (_WORDS[claim.findings[name].verdict] for name in _MODELS)
     return printed if printed == corrected else f"{printed} (corrected: {corrected})"
 
 
 def claims_document(
-    claims: Sequence[paper.Claim], checks: Sequence[paper.ClosureCheck], figures: Sequence[str] = ()
+    claims: Sequence[olaru2005.Claim], checks: Sequence[olaru2005.ClosureCheck], figures: Sequence[str] = ()
 ) -> str:
     """All of it in words: claims, choices, other readings, and the verdict on each equation."""
     sections = [
@@ -228,7 +239,7 @@ def claims_document(
         "## Claims in detail\n",
         *(_detail(claim) for claim in claims),
         "## What the paper leaves open, and what was taken\n",
-        markdown_table(("what", "taken", "why"), [(c.what, c.taken, c.why) for c in paper.CHOICES]),
+        markdown_table(("what", "taken", "why"), [(c.what, c.taken, c.why) for c in olaru2005.CHOICES]),
         "## Other readings of what it leaves open\n",
         "A reading under which all these claims hold is *consistent with* the text. It is not verified by that: "
         "more than one reading can be consistent, and the figures cannot be read off.\n",
@@ -256,7 +267,7 @@ def claims_document(
     return "\n".join(sections)
 
 
-def counts(claims: Sequence[paper.Claim]) -> str:
+def counts(claims: Sequence[olaru2005.Claim]) -> str:
     """``as printed, 13 of 22 claims hold, 5 do not hold and 4 cannot be checked; corrected, 11, 7 and 4``."""
     tallies = [collections.Counter(claim.findings[name].verdict for claim in claims) for name in _MODELS]
     printed, corrected = ([tally[verdict] for verdict in _COUNTED] for tally in tallies)
@@ -267,7 +278,7 @@ def counts(claims: Sequence[paper.Claim]) -> str:
     )
 
 
-def _meaning(claims: Sequence[paper.Claim]) -> str:
+def _meaning(claims: Sequence[olaru2005.Claim]) -> str:
     """What the verdicts mean to a reader who wants to use the paper."""
     shown = {claim.key: [claim.findings[name].short for name in _MODELS] for claim in claims}
     stated = {claim.key: claim.paper for claim in claims}
@@ -281,11 +292,11 @@ def _meaning(claims: Sequence[paper.Claim]) -> str:
         f"(paper: {stated['efficiency']}), and the film takes over at {film} (paper: {stated['threshold']}). "
         "Whether they agree with measurements cannot be checked, as the paper prints no measured value: a claim that "
         "holds follows from the equations, which does not make it true of a screw. To compute a machine take the model "
-        f"`reference`; `{nut_words.PAGE_FILE}` beside this file has it on a preloaded nut.\n"
+        f"`reference`; `{preloaded_nut.PAGE_FILE}` beside this file has it on a preloaded nut.\n"
     )
 
 
-def _detail(claim: paper.Claim) -> str:
+def _detail(claim: olaru2005.Claim) -> str:
     findings = [(label, claim.findings[name]) for label, name in zip(_LABELS, (*_MODELS, _LITERAL), strict=True)]
     words = f" {claim.remark}" if claim.remark else ""
     return (
@@ -294,7 +305,7 @@ def _detail(claim: paper.Claim) -> str:
     )
 
 
-def _readings(checks: Sequence[paper.ClosureCheck]) -> str:
+def _readings(checks: Sequence[olaru2005.ClosureCheck]) -> str:
     heading = ("reading", "minimum", "η over speed", "η at 20 N", "η above 20 N", "split 1/z", "split 2/z", "verdict")
     keys = ("minimum", "efficiency", "first_zone", "second_zone", "split_one", "split_two")
     rows = [
@@ -314,13 +325,13 @@ def _repairs() -> str:
             r.description,
             *(f"{value:.4f}" for value in (r.torque_alone, r.efficiency_alone, r.torque_so_far, r.efficiency_so_far)),
         )
-        for r in paper.repairs()
+        for r in olaru2005.repairs()
     ]
     return markdown_table(
         ("repair", "M_S alone (N m)", "η alone", "M_S with all so far (N m)", "η with all so far"), rows
     )
 
 
-def _marked(finding: paper.Finding) -> str:
+def _marked(finding: olaru2005.Finding) -> str:
     """A number, marked where the claim fails under this reading."""
-    return finding.short if finding.verdict is paper.Verdict.HOLDS else f"{finding.short} (no)"
+    return finding.short if finding.verdict is olaru2005.Verdict.HOLDS else f"{finding.short} (no)"

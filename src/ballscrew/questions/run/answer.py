@@ -14,8 +14,7 @@ from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.sizing.rules import DRAG_RULES, rule_of
-from ballscrew.questions.run.compute import OF_ONE_BALL, Run
-from ballscrew.questions.run.nut_loads import nut_loads
+from ballscrew.questions.run.compute import OF_ONE_BALL, Run, nut_loads
 from ballscrew.questions.shared.declared import LEFT_OUT, OneOf, table_of
 from ballscrew.questions.shared.envelope import envelope
 

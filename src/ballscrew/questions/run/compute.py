@@ -8,29 +8,154 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.judgements import Judgement, said
 from ballscrew.basis.overflow import overflow_as_input_error
-from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.basis.quantities import Info, Quantity, Ratio, Unit, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.makers_rules import BY_RULE, OfRule, by_rules
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
 from ballscrew.physics.friction.touching import most_loaded_ball, touched
-from ballscrew.physics.friction.verdicts import PRELOAD_ABOVE_RATING, PRELOAD_LOST, VERDICTS
+from ballscrew.physics.friction.verdicts import (
+    PRELOAD_ABOVE_RATING,
+    PRELOAD_LOST,
+    RULE_OF_MAKER,
+    VERDICTS,
+    preload_is_lost,
+)
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.rigidity import AxialRigidity, rigidity_iso3408
-from ballscrew.physics.solvers.load_distribution import preload_of
-from ballscrew.questions.run import makers
-from ballscrew.questions.run.nut_state import Flank, NutState, Touching
+from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.questions.shared.declared import from_attributes, table_of
+
+
+class Touching(NamedTuple):
+    """A pair of flanks that a ball touches: 1 is the side that carries the load, -1 the other."""
+
+    side: int
+    angle: float
+    load: float
+
+
+class Flank(NamedTuple):
+    """Loads and contact angles of the balls on one flank: least, mean and greatest."""
+
+    load: tuple[float, float, float]
+    angle: tuple[float, float, float]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class NutState:
+    """The loads of the balls of a nut, and the torque of the nut without axial load."""
+
+    nut: Nut
+    #: Preload of the nut, N.
+    preload: float
+    #: Torque of the nut without load: of its balls under the preload, and of seals and other losses.
+    preload_drag: float
+    #: The same in a full bath of oil; equal where no oil is late.
+    flooded_drag: float
+    #: What of it are losses beside those of the balls, by name, N m.
+    idle_losses: Mapping[str, float]
+    #: That of the balls as coefficients of catalogues, by the names of the result; NaN without preload.
+    drag_coefficients: Mapping[str, float]
+    loads: BallLoads
+    #: Rigidity by ISO 3408-4, and the deflection of the drive.
+    rigidity: AxialRigidity
+    #: Greatest contact pressure of all balls, Pa.
+    maximum_pressure: float
+    #: The flank that carries the load, and the one that it relieves; None where no ball touches.
+    loaded: Flank | None
+    relieved: Flank | None
+
+    @property
+    def drag_of_balls(self) -> float:
+        """Torque of the balls alone without load: without seals and other losses, N m."""
+        return self.preload_drag - sum(self.idle_losses.values())
+
+    @property
+    def preload_is_lost(self) -> bool:
+        """The load has lifted the balls off the other flank."""
+        return bool(preload_is_lost(self.preload, float(self.loads.remaining_preload)))
+
+
+class BesideRule(NamedTuple):
+    """What a rule gives for the nut, and the model over it."""
+
+    by_rule: OfRule
+    ratio: Ratio
+
+    @property
+    def text(self) -> str:
+        """``Rexroth, its maker, 0.41 N m (model / rule 0.93)``."""
+        rule = self.by_rule.rule
+        own = ", its maker," if self.by_rule.is_own else ""
+        torque = units.shown(self.by_rule.torque, BY_RULE[rule.name])
+        return f"{rule.label}{own} {torque} (model / rule {units.fixed(self.ratio, 2)})"
+
+    @property
+    def label(self) -> str:
+        """``by the rule of Rexroth, its maker; model / rule 0.93``."""
+        own = ", its maker" if self.by_rule.is_own else ""
+        return f"by the rule of {self.by_rule.rule.label}{own}; model / rule {self.ratio:.2f}"
+
+
+def beside_rules(case: Case, nut: NutState | None) -> Sequence[BesideRule]:
+    """The model over each rule for a preloaded nut without load and seals, that of its maker first; none of others."""
+    if nut is None or not nut.preload:
+        return ()
+    return [BesideRule(one, nut.drag_of_balls / one.torque) for one in by_rules(case)]
+
+
+def messages(case: Case, nut: NutState | None) -> list[str]:
+    """The torque of the balls beside all rules, and by how much the rules contradict each other."""
+    result = beside_rules(case, nut)
+    if nut is None or not result:
+        return []
+    rules = ", ".join(one.text for one in result)
+    torque = units.shown(nut.drag_of_balls, BY_RULE[result[0].by_rule.rule.name])
+    return [f"drag torque without seals {torque}; by the rules of makers: {rules}", contradiction(result)]
+
+
+def contradiction(result: Sequence[BesideRule]) -> str:
+    """By how much the rules contradict each other."""
+    torques = [float(one.by_rule.torque) for one in result]
+    factor = units.fixed(max(torques) / min(torques), 2)
+    return (
+        f"the rules of makers contradict each other here by a factor of {factor}; none of them accounts for oil, "
+        "speed or balls"
+    )
+
+
+def judged(case: Case, nut: NutState | None) -> tuple[dict[str, Any], dict[str, str]]:
+    """The values and the words of the verdict on the rule of the nut's own maker; none with spacer balls.
+
+    The rules are of nuts full of balls.
+    """
+    own = next((one for one in beside_rules(case, nut) if one.by_rule.is_own), None)
+    if nut is None or own is None or nut.nut.spacer_balls:
+        return {}, {}
+    rule, torque = own.by_rule.rule, own.by_rule.torque
+    values = {"rule_of_maker": torque, "preload_drag_of_balls": nut.drag_of_balls}
+    return values, {"rule": rule.label, "range": rule.range}
+
+
+def verdicts(case: Case, nut: NutState | None) -> list[Record]:
+    """What the rule of the nut's own maker gives, where the model is not near it."""
+    values, words = judged(case, nut)
+    return said([RULE_OF_MAKER], values | {"screw_speed": case.operation.screw_speed}, words)
+
 
 #: Results that verdicts are on, the operating point among them.
 _OF_RESULT = ("axial_load", "screw_speed", "screw_torque", "drive_torque", "holding_torque", "valid")
@@ -120,7 +245,7 @@ class Run:
         if nut is not None:
             values["preload"] = nut.preload
             values |= {name: getattr(nut.loads, name) for name in ("remaining_preload", "lift_off_load")}
-        of_maker, words = makers.judged(self.case, nut)
+        of_maker, words = judged(self.case, nut)
         return values | of_maker, words
 
     def _said(self, rows: Sequence[Judgement]) -> list[Record]:
@@ -274,3 +399,63 @@ def _touching(friction_result: FrictionResult) -> list[Touching]:
 def _of_ball(value: Any, ball: int) -> float:
     array = np.asarray(value).reshape(-1)
     return float(array[ball if len(array) > 1 else 0])
+
+
+_KNOWN = quantities_of(BallLoads)
+_OF_BALLS = {name: _KNOWN[name] for name in ("forward_load", "backward_load", "forward_angle", "backward_angle")}
+_OF_ALL_BALLS = {name: quantity for name, quantity in _KNOWN.items() if name not in _OF_BALLS}
+_ENDS = ("least", "mean", "greatest")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class EachBall(table_of(_OF_BALLS, of=Sequence[float])):
+    """Loads and contact angles ball by ball, or of each kind of ball."""
+
+    #: Balls that each entry stands for.
+    count: Sequence[float]
+
+
+@dataclasses.dataclass(frozen=True)
+class OnFlank:
+    """Least, mean and greatest of the balls on one flank."""
+
+    load: Annotated[Mapping[str, float], Unit("N"), Info("Q", "normal load: least, mean and greatest")]
+    angle: Annotated[
+        Mapping[str, float], Unit("rad"), Info(r"\alpha", "contact angle: least, mean and greatest", "deg")
+    ]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class NutLoads(table_of(_OF_ALL_BALLS)):
+    """Loads of the balls of a nut, and how far it gives way."""
+
+    #: True where the load has lifted the balls off the other flank.
+    preload_is_lost: bool
+    #: The flank that carries the load; null where no ball touches it.
+    loaded_flank: OnFlank | None
+    #: The flank that the load relieves; null where no ball touches it.
+    relieved_flank: OnFlank | None
+    #: Rigidity by ISO 3408-4.
+    axial_rigidity: AxialRigidity
+    #: Ball by ball, or kind by kind; not in lists of screws.
+    balls: EachBall
+
+
+def nut_loads(nut: NutState) -> NutLoads:
+    """The loads of the balls of a nut: least, mean and greatest on both flanks, then ball by ball."""
+    return from_attributes(
+        NutLoads,
+        nut.loads,
+        preload_is_lost=nut.preload_is_lost,
+        loaded_flank=_on_flank(nut.loaded),
+        relieved_flank=_on_flank(nut.relieved),
+        axial_rigidity=nut.rigidity,
+        balls=from_attributes(EachBall, nut.loads, count=nut.loads.balls),
+    )
+
+
+def _on_flank(flank: Flank | None) -> OnFlank | None:
+    if flank is None:
+        return None
+    load, angle = ({name: numbers[place] for place, name in enumerate(_ENDS)} for numbers in flank)
+    return OnFlank(load, angle)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from ballscrew.questions.run.answer import RunResults, VendorRows
-from ballscrew.questions.run.nut_loads import NutLoads
+from ballscrew.questions.run.compute import NutLoads
 from ballscrew.questions.shared.answer_parts import Closed, field
 from ballscrew.questions.shared.declared import response, with_answers
 

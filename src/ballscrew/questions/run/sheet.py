@@ -33,9 +33,7 @@ from ballscrew.physics.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRi
 from ballscrew.physics.sizing.rules import RULES
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.run.answer import results
-from ballscrew.questions.run.compute import Run
-from ballscrew.questions.run.makers import beside_rules, contradiction
-from ballscrew.questions.run.nut_state import NutState
+from ballscrew.questions.run.compute import NutState, Run, beside_rules, contradiction
 
 if TYPE_CHECKING:  # loads xarray
     from ballscrew.engine.uncertainty.bands import OutputBand

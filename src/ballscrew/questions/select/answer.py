@@ -16,15 +16,14 @@ from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import failing, judged, verdict_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.check import document as check_documents
-from ballscrew.questions.duty import verdicts as duty_verdicts
+from ballscrew.questions.check import compute
+from ballscrew.questions.duty import verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport, FullBath
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
 from ballscrew.questions.select.need import Need
-from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.select.requirements import Requirements
+from ballscrew.questions.select.requirements import OBJECTIVES, Requirements
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.check_lines import with_unlikely
 from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
@@ -204,7 +203,7 @@ def document(selection: Selection, listed: Sequence[Ranked] | None = None) -> di
     Candidates are those ``listed``, or all of them.
     """
     first = next((each.candidate for each in selection.ranked if each.candidate.complete), None)
-    known: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
+    known: dict[str, Any] = {} if first is None else compute.list_document([first.checked])[0]["units"]
     known.pop("loads", None)
     best, moves = selection.best, selection.need.moves
     return {
@@ -276,9 +275,9 @@ def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> 
     result = ranked.candidate
     whole: dict[str, Any] = {"results": {}, "verdicts": [], "warnings": [], "assumed": []}
     if result.run is not None:
-        whole = check_documents.list_document([result.run])[0]
+        whole = compute.list_document([result.run])[0]
         if result.duty is not None:  # of the cycle, and not of steady travel
-            for name, more in (("verdicts", duty_verdicts.inertia), ("warnings", duty_verdicts.inertia_warnings)):
+            for name, more in (("verdicts", verdicts.inertia), ("warnings", verdicts.inertia_warnings)):
                 whole[name] = [one for one in whole[name] if one["id"] != STARVED] + documents(more(result.duty))
         if not any(one["id"] == STARVED for name in ("verdicts", "warnings") for one in whole[name]):
             # of the cycle, or of the nut without load
@@ -287,7 +286,7 @@ def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> 
         **declared.document(candidate(ranked, verdict(result), case_text.tables(result, need, model))),
         "results": whole.pop("results"),
         **({} if result.duty is None else declared.document(of_motion(result.duty))),
-        "checks": [check_documents.check_document(check) for check in result.checks],
+        "checks": [compute.check_document(check) for check in result.checks],
         "judged": judged(result.checks),
         **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
     }

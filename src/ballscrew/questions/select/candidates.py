@@ -29,13 +29,11 @@ from ballscrew.physics.sizing.installation import Installation
 from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED, lists_preload
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.check.compute import Checked, checked, checks_by_loads
-from ballscrew.questions.duty import compute as duties
-from ballscrew.questions.duty import verdicts as duty_verdicts
+from ballscrew.questions.duty import compute, verdicts
 from ballscrew.questions.duty.compute import DutyReport
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.need import Need
-from ballscrew.questions.select.objectives import OBJECTIVES, USUAL_LENGTH, reflected_mass, shaft_length
-from ballscrew.questions.select.requirements import Requirements
+from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_LENGTH, Requirements, reflected_mass, shaft_length
 from ballscrew.questions.shared.every_row import copied
 from ballscrew.questions.shared.own_screws import tables_of_row
 
@@ -92,7 +90,7 @@ class Candidate:
     case: Case
     #: All checks: those of ``ballscrew check`` or ``ballscrew duty``, then those of the need.
     checks: Sequence[Check]
-    #: The numbers compared, by the names of :data:`~ballscrew.questions.select.objectives.OBJECTIVES`, in SI.
+    #: The numbers compared, by the names of :data:`~ballscrew.questions.select.requirements.OBJECTIVES`, in SI.
     objectives: Mapping[str, float]
     #: Preload of the nut, N.
     preload: Force
@@ -286,7 +284,7 @@ def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
     """A variant with what follows from its loads and sizes alone: one solution of the balls, and no friction."""
     preload = float(preload_of(case.screw, case.screw.nut))
     if need.moves:
-        report = duties.planned(case)
+        report = compute.planned(case)
         balls, own = report.balls_under_largest_load, report.checks_by_loads
         time, load = float(report.life_time), report.largest_load
     else:
@@ -323,7 +321,7 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
         length = units.shown(case.installation.unsupported_length, fields_of(Installation)["unsupported_length"])
         notes.append(f"unsupported length {length}: {LENGTH_OF_STROKE}")
     result = checked(row.name, case, [*need.notes, *notes])
-    report = duties.duty(case, recorded=recorded) if need.moves else None
+    report = compute.duty(case, recorded=recorded) if need.moves else None
     starves = Starved.of(result, report)
     numbers = objectives(need, result, report, _price(need, variant), starves)
     own = result.checks if report is None else report.checks
@@ -390,7 +388,7 @@ class Starved(NamedTuple):
     @classmethod
     def of(cls, result: Checked, report: DutyReport | None) -> Starved:
         """Under load and without, each judged by itself: under load oil may matter little, and without it much."""
-        loaded = result.run.friction.starvation if report is None else duty_verdicts.starved(report)
+        loaded = result.run.friction.starvation if report is None else verdicts.starved(report)
         return cls(loaded, _without_load(result))
 
     @property

@@ -16,9 +16,9 @@ from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Duration
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
-from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels import kernel
 from ballscrew.physics.sizing.listed_nut import NUTS
-from ballscrew.questions.duty import compute as duties
+from ballscrew.questions.duty import compute
 from ballscrew.questions.select.candidates import (
     LENGTH_OF_STROKE,
     USUAL_LIFE,
@@ -32,8 +32,7 @@ from ballscrew.questions.select.candidates import (
     variants,
 )
 from ballscrew.questions.select.need import Need, need_of
-from ballscrew.questions.select.objectives import OBJECTIVES, USUAL_OBJECTIVES, objectives_named
-from ballscrew.questions.select.pareto import front
+from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_OBJECTIVES, front, objectives_named
 from ballscrew.questions.shared.declared import FINITE
 from ballscrew.questions.shared.every_row import Done, each
 
@@ -212,7 +211,7 @@ def _most_likely(every: Sequence[Variant], known: Mapping[str, Candidate], *, mo
 
     def friction(variant: Variant) -> float:
         case, preload = known[variant.label].case, known[variant.label].preload
-        load = duties.planned(case).largest_load if moves else float(case.operation.axial_load)
+        load = compute.planned(case).largest_load if moves else float(case.operation.axial_load)
         return (abs(load) + preload) * float(case.screw.pitch_circle_diameter / case.screw.lead)
 
     able = [variant for variant in every if variant.label in known and not known[variant.label].cannot_hold]
@@ -301,7 +300,7 @@ def _prepared(
 
 def _worth_recording(need: Need, every: Sequence[Variant]) -> frozenset[str]:
     """The kinds of nuts of which so many candidates move that their friction is recorded and compiled once."""
-    if not need.moves or not kernels.available():
+    if not need.moves or not kernel.available():
         return frozenset()
     counts = Counter(variant.nut for variant in every)
     four = {nut for nut in counts if nut in NUTS and NUTS[nut].contacts_per_ball == 4}

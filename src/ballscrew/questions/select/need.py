@@ -21,8 +21,15 @@ from ballscrew.physics.components.materials import grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.sizing.installation import Installation
 from ballscrew.questions.select.need_motion import OF_MOTION, with_motion
-from ballscrew.questions.select.objectives import USUAL_LENGTH, USUAL_OBJECTIVES, objectives_named
-from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, NEEDED, Requirements
+from ballscrew.questions.select.requirements import (
+    ALLOWED,
+    FORBIDDEN,
+    NEEDED,
+    USUAL_LENGTH,
+    USUAL_OBJECTIVES,
+    Requirements,
+    objectives_named,
+)
 
 #: The oil where a need names none: that of ``ballscrew check``.
 GRADE, TEMPERATURE = "ISO VG 100", "40 degC"

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ballscrew.questions.select.options import ListOptions, SelectOptions
 from ballscrew.questions.shared.log_options import KeepGoing
 from ballscrew.questions.shared.options import Option
 from ballscrew.questions.shared.question import NEED, Answer, Done, Endpoint, Plan, Question, Request, Sent, Work
@@ -15,6 +14,45 @@ from ballscrew.questions.shared.question import NEED, Answer, Done, Endpoint, Pl
 if TYPE_CHECKING:
     from ballscrew.basis.errors import InputError
     from ballscrew.questions.select.compute import Ranked, Selection
+
+Objectives = Annotated[
+    Sequence[str],
+    Option(
+        "Objectives to compare; the first ranks: loss, inertia, reflected_mass, life, rigidity, drive_torque, …",
+        metavar="NAMES",
+    ),
+]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class SelectOptions:
+    """What is asked of a selection beside the need."""
+
+    words: Annotated[
+        str, Option('Only rows with these sizes and words: "rexroth 40x".', metavar="WORDS", flag="filter")
+    ] = ""
+    complete: Annotated[bool, Option("The full model also for candidates that their loads alone rule out.")] = False
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ListOptions:
+    """How the candidates are ranked, and which of them are listed."""
+
+    #: Empty for those of the need.
+    objectives: Objectives = ()
+    holds: Annotated[bool, Option("Only candidates without a failed check; some checks may not be judged.")] = False
+    front: Annotated[bool, Option("Only members of the Pareto front.")] = False
+    first: Annotated[int, Option("Lines shown; 0 for all.", metavar="N", at_least=0)] = 20
+    #: None for that of the first one listed.
+    rank: Annotated[
+        int | None,
+        Option(
+            "Rank of the candidate whose case --to FILE.toml writes; the first listed if left out.",
+            metavar="N",
+            at_least=1,
+        ),
+    ] = None
+
 
 #: The kind of a case file.
 _CASE = ".toml"
@@ -33,7 +71,7 @@ class TableOptions:
 
 def _prepare(request: Request) -> Work:
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.select import answer as documents
+    from ballscrew.questions.select.answer import document, row_document
     from ballscrew.questions.select.compute import plan, select
     from ballscrew.questions.select.sheet import cost, sheet
 
@@ -59,7 +97,7 @@ def _prepare(request: Request) -> Work:
             keep_going=table.keep_going,
             complete=options.complete,
             done=done,
-            found_one=lambda candidate: request.send(documents.row_document(candidate)),
+            found_one=lambda candidate: request.send(row_document(candidate)),
         )
         shown = [
             each
@@ -72,7 +110,7 @@ def _prepare(request: Request) -> Work:
 
         return Answer(
             sheet(selection, shown, listed.first),
-            lambda: documents.document(selection, shown),
+            lambda: document(selection, shown),
             f"{len(shown)} candidates",
             write=write,
             notes=selection.notes,
@@ -176,13 +214,13 @@ def _response() -> Any:
 
 
 def _plan_response() -> Any:
-    from ballscrew.questions.select.compute import Plan as PlanOfNeed
+    from ballscrew.questions.select.compute import Plan
     from ballscrew.questions.shared.declared import schema
 
-    return schema(PlanOfNeed)
+    return schema(Plan)
 
 
-QUESTION = Question(
+SELECT = Question(
     name="select",
     help="""Rank the screws of the catalogue for a need. Each row counts with its nut, preloads and oils.
 

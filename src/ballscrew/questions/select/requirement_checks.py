@@ -16,8 +16,7 @@ from ballscrew.physics.sizing.rigidity import AxialRigidity
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check.compute import Checked
 from ballscrew.questions.duty.compute import DutyReport
-from ballscrew.questions.select.objectives import shaft_length
-from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, Requirements
+from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, Requirements, shaft_length
 
 #: The checks of :func:`by_loads`.
 BY_LOADS = ("preload", "remaining_preload", "inertia", "step")

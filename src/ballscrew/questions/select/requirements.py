@@ -3,11 +3,29 @@
 from __future__ import annotations
 
 import dataclasses
+import math
+from collections.abc import Mapping, Sequence
 from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, faults_of, nearest, raise_if_any
-from ballscrew.basis.quantities import Count, Force, Info, Length, MomentOfInertia, Speed, Stiffness, Torque, fields_of
+from ballscrew.basis.quantities import (
+    Count,
+    Force,
+    Info,
+    Length,
+    Mass,
+    MomentOfInertia,
+    Quantity,
+    Speed,
+    Stiffness,
+    Torque,
+    fields_of,
+)
+from ballscrew.cases.case_files.case import Case
 
 #: What the load may do with the screw: drive it or not, must drive it, must not.
 ALLOWED, NEEDED, FORBIDDEN = "allowed", "needed", "forbidden"
@@ -69,3 +87,83 @@ class Requirements(ByValue):
             remedy = "add counts_per_turn, those of the encoder"
             faults.append(Fault("need.largest_step", "cannot be judged alone", f"{self.largest_step:g} m", remedy))
         raise_if_any(faults)
+
+
+#: The length of shaft whose inertia counts where a need gives neither a length nor a stroke, m.
+USUAL_LENGTH = 1.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Objective:
+    """A number to be small, or to be large."""
+
+    quantity: Quantity
+    larger_is_better: bool = False
+
+    @property
+    def sign(self) -> float:
+        """The factor that makes less better."""
+        return -1.0 if self.larger_is_better else 1.0
+
+
+def _objective(
+    name: str, unit: str, symbol: str, meaning: str, shown_in: str = "", *, larger: bool = False
+) -> Objective:
+    return Objective(Quantity(name, unit, Info(symbol, meaning, shown_in)), larger)
+
+
+#: The objectives by name.
+OBJECTIVES: Mapping[str, Objective] = {
+    each.quantity.name: each
+    for each in (
+        _objective("loss", "W", "P_f", "power lost to friction, of a cycle its mean"),
+        _objective("inertia", "kg m^2", "J", "moment of inertia of the shaft", "kg cm^2"),
+        _objective("reflected_mass", "kg", "m_J", "mass that the shaft adds to what moves"),
+        _objective("life", "s", "L_h", "basic rating life L10h", "h", larger=True),
+        _objective("rigidity", "N/m", "R", "rigidity of the nut under the load", "N/um", larger=True),
+        _objective("drive_torque", "N m", "M", "torque on the shaft, of a cycle the largest"),
+        _objective("preload_torque", "N m", "M_p", "drag torque of the nut"),
+        _objective("price_index", "1", "p", "price against another of the same list"),
+    )
+}
+#: Those that count by default; the price where one is known.
+USUAL_OBJECTIVES = ("loss", "inertia", "life", "rigidity")
+
+
+def objectives_named(names: Sequence[str], where: str, known: Sequence[str] = tuple(OBJECTIVES)) -> tuple[str, ...]:
+    """Names of objectives, each once. Raises :class:`~ballscrew.basis.errors.InputError` for unknown ones, and for
+    none.
+    """
+    faults = [Fault(where, "unknown objective", str(n), nearest(str(n), known)) for n in names if n not in known]
+    faults += [] if names else [Fault(where, "is empty", "", f"name some of {', '.join(known)}")]
+    raise_if_any(faults)
+    return tuple(dict.fromkeys(names))
+
+
+def shaft_length(required: Requirements, case: Case) -> Length | None:
+    """The length of shaft whose inertia counts: that of the case, else the stroke; None where neither is given."""
+    return required.stroke if case.turning_shaft is None else case.turning_shaft.length
+
+
+def reflected_mass(inertia: MomentOfInertia, lead: Length) -> Mass:
+    r"""Mass whose kinetic energy at the nut is that of the shaft, :math:`m_J = J (2\pi/P_h)^2`, kg."""
+    return inertia * (2 * math.pi / lead) ** 2
+
+
+def front(costs: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether no other row is better, for each row of costs, all to be small.
+
+    A row beats another that it is nowhere above and somewhere below; equal rows beat each other not. Rows with NaN are
+    on no front.
+    """
+    values = np.zeros(len(costs), dtype=bool)
+    known = np.flatnonzero(~np.isnan(costs).any(axis=1))
+    # a row that beats another comes before it in the order of its columns, one after the other
+    order = known[np.lexsort(costs[known].T[::-1])]
+    kept: list[int] = []
+    for place in order:
+        best, row = costs[kept], costs[place]
+        if not np.any((best <= row).all(axis=1) & (best < row).any(axis=1)):
+            kept.append(int(place))
+    values[kept] = True
+    return values

@@ -26,16 +26,15 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.basis.quantities import fields_of
-from ballscrew.questions.check import sheet as check_sheet
-from ballscrew.questions.duty import verdicts as duty_verdicts
+from ballscrew.questions.check.sheet import cells
+from ballscrew.questions.duty import verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
-from ballscrew.questions.run import makers
+from ballscrew.questions.run import compute
 from ballscrew.questions.select.answer import BRAKE, verdict
 from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
 from ballscrew.questions.select.need import Need
-from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.select.requirements import ALLOWED, Requirements
+from ballscrew.questions.select.requirements import ALLOWED, OBJECTIVES, Requirements
 from ballscrew.questions.shared import check_lines
 
 #: What stands against a limit, where the list prints something else.
@@ -218,11 +217,11 @@ def compared_with(selection: Selection) -> list[str]:
     for name in dict.fromkeys(check.name for check in every if check.holds is False and check.limit):
         own = sorted((check for check in every if check.name == name), key=lambda check: check.limit or 0.0)
         limits = dict.fromkeys(check_lines.shown(check, check.limit) for check in (own[0], own[-1]))
-        makers = Counter(check.whose_limit for check in own if check.whose_limit)
+        compute = Counter(check.whose_limit for check in own if check.whose_limit)
         words = [
             " to ".join(limits),
             *_OF_LIMIT.get(name, ()),
-            *(f"{maker}: {count} candidates" for maker, count in makers.items()),
+            *(f"{maker}: {count} candidates" for maker, count in compute.items()),
         ]
         lines.append(f"{name.replace('_', ' ')} {'; '.join(words)}")
     alone = [each for each in selection.ranked if _estimate_decides(each.candidate)]
@@ -241,8 +240,8 @@ def what_turns(ranked: Sequence[Ranked]) -> list[str]:
     Beside it how many have a shaft with a larger inertia than the need gives for all that turns.
     """
     moving = [(each.rank, each.candidate.duty) for each in ranked if each.candidate.duty is not None]
-    lines = [f"{rank}: {one.text}" for rank, duty in moving[:1] for one in duty_verdicts.inertia(duty)]
-    warned = [(rank, one) for rank, duty in moving for one in duty_verdicts.inertia_warnings(duty)]
+    lines = [f"{rank}: {one.text}" for rank, duty in moving[:1] for one in verdicts.inertia(duty)]
+    warned = [(rank, one) for rank, duty in moving for one in verdicts.inertia_warnings(duty)]
     if too_small := [(rank, one) for rank, one in warned if one.id == "duty.inertia_too_small"]:
         rank, first = too_small[0]
         lines.append(f"{len(too_small)} have a shaft of more inertia than is given; {rank}: {first.text}")
@@ -257,7 +256,7 @@ def beside_rules(selection: Selection) -> list[str]:
     if best is None or best.candidate.run is None:
         return []
     run = best.candidate.run.run
-    said = "; ".join(makers.messages(run.case, run.nut))
+    said = "; ".join(compute.messages(run.case, run.nut))
     return [f"{best.rank}: {said}"] if said else []
 
 
@@ -297,7 +296,7 @@ def _cells(ranked: Ranked) -> Cells:
             values[f"brake {name}"] = (getattr(candidate.duty.brake, name), NUMBERS["torque_peak"])
     for check in candidate.checks:
         values[f"{check.name.replace('_', ' ')} utilisation"] = (_finite(check.utilisation), None)
-    of_check = check_sheet.cells(candidate.checked) if candidate.complete else {}
+    of_check = cells(candidate.checked) if candidate.complete else {}
     return {**values, **{heading: cell for heading, cell in of_check.items() if heading not in values}}
 
 

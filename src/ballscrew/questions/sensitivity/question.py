@@ -2,36 +2,49 @@
 
 from __future__ import annotations
 
-from typing import Any
+import dataclasses
+from typing import Annotated, Any
 
-from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.shared.options import Option
 from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Work
 
 
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class SensitivityOptions:
+    """What is asked of a sensitivity analysis."""
+
+    output: Annotated[str, Option("Result, for example efficiency.", metavar="NAME")] = "screw_torque"
+    method: Annotated[
+        str,
+        Option("sobol: shares of the variance; morris: screening of many inputs; local: derivatives.", metavar="NAME"),
+    ] = "sobol"
+    samples: Annotated[int | None, Option("A power of two (sobol), or trajectories (morris).", metavar="N")] = None
+    seed: Annotated[int, Option("Seed: the same one gives the same numbers.", metavar="N")] = 0
+    only_given: Annotated[
+        bool, Option("Only inputs that the case file gives a distribution, and none of the usual ones.")
+    ] = False
+
+
 def _prepare(request: Request) -> Work:
-    from ballscrew.questions.sensitivity import compute
-    from ballscrew.questions.sensitivity.sheet import sheet
+    from ballscrew.questions.sensitivity.answer import document, sensitivity, sheet
 
     options, case = request.options(SensitivityOptions), request.load()
 
     def answer(done: Done) -> Answer:
-        report = compute.sensitivity(case, options, done)
-        return Answer(
-            sheet(case, report), lambda: compute.document(case, report), f"{len(report.result.inputs)} inputs"
-        )
+        report = sensitivity(case, options, done)
+        return Answer(sheet(case, report), lambda: document(case, report), f"{len(report.result.inputs)} inputs")
 
     return Work(answer, "sensitivity")
 
 
 def _response() -> Any:
-    from ballscrew.questions.sensitivity.compute import Indices
+    from ballscrew.questions.sensitivity.answer import Indices
     from ballscrew.questions.shared.declared import response
 
     return response(Indices, "Sensitivity", named="sensitivity")
 
 
-QUESTION = Question(
+SENSITIVITY = Question(
     name="sensitivity",
     help="""Share of each uncertain input in a band. The output also says what to measure to halve the band.
 

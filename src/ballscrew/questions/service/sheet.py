@@ -36,8 +36,7 @@ from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.questions.service.answer import preload_quantity, verdicts
-from ballscrew.questions.service.compute import TORQUE, ServiceReport
-from ballscrew.questions.service.points import curves
+from ballscrew.questions.service.compute import TORQUE, ServiceReport, curves
 
 #: Causes of an interval that are no input of the model.
 #: Causes of an interval that are named.

@@ -139,3 +139,17 @@ class Drawing(Closed):
     """A drawing as SVG."""
 
     text: str
+
+
+class CaseSchema(Open):
+    """JSON Schema of a case file."""
+
+    dialect: str = Field(alias="$schema")
+    properties: Tables
+
+
+class NeedSchema(Open):
+    """JSON Schema of a need."""
+
+    dialect: str = Field(alias="$schema")
+    properties: Tables

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import io
+import re
 import textwrap
+import threading
 from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
 from typing import IO, Any
@@ -17,19 +20,72 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.questions.shared.chart_colours import BLUE as BLUE
-from ballscrew.questions.shared.chart_colours import GREEN as GREEN
-from ballscrew.questions.shared.chart_colours import GREY as GREY
-from ballscrew.questions.shared.chart_colours import GROWING as GROWING
-from ballscrew.questions.shared.chart_colours import INK as INK
-from ballscrew.questions.shared.chart_colours import LIGHT_SHADE as LIGHT_SHADE
-from ballscrew.questions.shared.chart_colours import MECHANISM_COLOURS as MECHANISM_COLOURS
-from ballscrew.questions.shared.chart_colours import ORANGE as ORANGE
-from ballscrew.questions.shared.chart_colours import PURPLE as PURPLE
-from ballscrew.questions.shared.chart_colours import RED as RED
-from ballscrew.questions.shared.chart_colours import SHADE as SHADE
-from ballscrew.questions.shared.chart_colours import SKY as SKY
-from ballscrew.questions.shared.chart_colours import YELLOW as YELLOW
+from ballscrew.basis.atomic_files import atomic_write, check_writable
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.output.markup import escaped
+from ballscrew.basis.output.sheet import Colour
+
+#: Colours of Okabe and Ito, told apart with any colour vision.
+BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW = (
+    "#0072B2",
+    "#E69F00",
+    "#009E73",
+    "#CC79A7",
+    "#56B4E9",
+    "#D55E00",
+    "#F0E442",
+)
+#: From light to dark, for curves of one growing parameter; told apart in print, too.
+GROWING = ("#7FB8DA", "#3C8DBC", "#8A6FB0", "#B0457B", "#5B1A3A")
+INK, GREY, SHADE, LIGHT_SHADE = "#222222", "#666666", "#D9D9D9", "#F2F2F2"
+#: The shades of the colours of a sheet.
+SHADES: Mapping[Colour, str] = {
+    "ink": INK,
+    "grey": GREY,
+    "blue": BLUE,
+    "orange": ORANGE,
+    "green": GREEN,
+    "purple": PURPLE,
+    "sky": SKY,
+    "red": RED,
+    "yellow": YELLOW,
+}
+#: The same colour for a mechanism in all figures.
+_OF_MECHANISMS: Mapping[str, Colour] = {
+    "hydrodynamic_rolling": "sky",
+    "elastic_hysteresis": "green",
+    "curvature": "orange",
+    "spin": "red",
+    "helix": "blue",
+    "ball_to_ball": "purple",
+    "chain_braking": "yellow",
+}
+MECHANISM_COLOURS: Mapping[str, str] = {name: SHADES[colour] for name, colour in _OF_MECHANISMS.items()}
+
+
+def colour_of(mechanism: str) -> Colour:
+    """The colour of a mechanism; grey for losses beside those of the balls."""
+    return _OF_MECHANISMS.get(mechanism, "grey")
+
+
+SUFFIXES = (".png", ".svg", ".pdf")
+
+
+def check_picture(to: Path, option: str = "--to") -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` if no picture can be written there."""
+    if to.suffix.lower() not in SUFFIXES:
+        raise InputError(Fault(option, "unknown kind of file", str(to), "end it in .png, .svg or .pdf"))
+    check_writable(option, to)
+
+
+def draw(figure: Callable[[], Figure], to: Path, option: str = "--to") -> None:
+    """Draw a figure in the house style and write it, whole or not at all."""
+    buffer = io.BytesIO()
+    with house_style():
+        save_as(figure(), buffer, to.suffix.lower().removeprefix("."))
+    with atomic_write(option, to) as path:
+        path.write_bytes(buffer.getvalue())
+
 
 LINE_STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
 
@@ -139,3 +195,50 @@ def shared_legend(axes: Sequence[Axes], **options: Any) -> None:
     """The same legend in each panel, so that each can be read alone."""
     for panel in axes:
         panel.legend(**options)
+
+
+_SMALL: Any = {
+    "font.size": 8.5, "axes.titlesize": 9, "axes.labelsize": 8.5, "legend.fontsize": 7.5, "xtick.labelsize": 8,
+    "ytick.labelsize": 8, "lines.linewidth": 1.5, "svg.fonttype": "none", "figure.facecolor": "none",
+    "axes.facecolor": "none", "legend.framealpha": 0.0, "axes.formatter.limits": (-9, 9),
+}  # fmt: skip
+#: The style of matplotlib is one for all threads.
+_LOCK = threading.Lock()
+
+
+def svg_of(draw: Callable[[], Figure], name: str) -> str:
+    """One figure as SVG text without a title, in the style of a report."""
+    with _LOCK, house_style():
+        mpl.rcParams.update(_SMALL)
+        return _text_of(draw(), name)
+
+
+def _text_of(figure: Figure, name: str) -> str:
+    """The SVG of a figure: identifiers of its own, ink in the colour of the page, no style that leaks."""
+    buffer = io.BytesIO()
+    save_as(figure, buffer, "svg")
+    text = buffer.getvalue().decode()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r"<defs>\s*<style[^>]*>.*?</style>\s*</defs>\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)
+    text = re.sub(r'\bid="', f'id="{name}-', text)
+    text = re.sub(r"url\(#", f"url(#{name}-", text)
+    text = re.sub(r'href="#', f'href="#{name}-', text)
+    text = re.sub(INK, "currentColor", text, flags=re.IGNORECASE)
+    text = re.sub(GREY, "currentColor", text, flags=re.IGNORECASE)
+    text = re.sub(r"stroke: #e4e4e4", "stroke: currentColor; stroke-opacity: 0.14", text, flags=re.IGNORECASE)
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="{_box(text)}"'
+    lines = 'stroke-linejoin="round" stroke-linecap="butt" fill="currentColor"'
+    return re.sub(r"<svg[^>]*>", f"{head} {lines}>", text, count=1)
+
+
+def _box(text: str) -> str:
+    box = re.search(r'viewBox="([^"]*)"', text)
+    assert box is not None
+    return box[1]
+
+
+def named(text: str, words: str) -> str:
+    """An SVG with its name in words, for those who cannot see it."""
+    return re.sub(r"<svg([^>]*)>", lambda m: f'<svg{m[1]} role="img">\n<title>{escaped(words)}</title>', text, count=1)

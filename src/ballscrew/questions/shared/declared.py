@@ -333,20 +333,20 @@ def response(cls: type, name: str, *, named: str = "results", judged: bool = Fal
 
     ``judged`` where its checks are of a screw; ``beside`` is a model of what it has besides, or in another form.
     """
-    from ballscrew.questions.shared import answer_parts as parts
+    from ballscrew.questions.shared import answer_parts
 
-    base: Any = parts.Shown if beside is None else beside
+    base: Any = answer_parts.Shown if beside is None else beside
     fields = {
-        "inputs": parts.Tables,
+        "inputs": answer_parts.Tables,
         named: schema(cls),
-        "units": parts.Tables,
-        "verdicts": list[parts.Record],
-        "checks": list[parts.JudgedCheck if judged else parts.Record],
-        "warnings": list[parts.Record],
-        "provenance": parts.Provenance,
+        "units": answer_parts.Tables,
+        "verdicts": list[answer_parts.Record],
+        "checks": list[answer_parts.JudgedCheck if judged else answer_parts.Record],
+        "warnings": list[answer_parts.Record],
+        "provenance": answer_parts.Provenance,
     }
     own = {name: (kind, ...) for name, kind in fields.items() if name not in base.model_fields}
-    return parts.model(name, _first_line(cls), base, **own)
+    return answer_parts.model(name, _first_line(cls), base, **own)
 
 
 def _first_line(cls: type) -> str:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import csv
 import dataclasses
+import importlib.util
+import io
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
+from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
@@ -120,3 +124,50 @@ def each(
         done_by_then = f"{len(results)} of {len(rows)} are done and kept, the last is {list(results)[-1]}"
         notes.append(f"interrupted: {done_by_then} · run the same again for all")
     return OfRows(results, notes, interrupted)
+
+
+_DIGITS = 12
+#: Endings of files that are written.
+KINDS = (".csv", ".xlsx")
+
+
+class RowTable(NamedTuple):
+    """Headings, and the cells of each row below them."""
+
+    headings: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+
+
+# -- files ----------------------------------------------------------------------------------------
+
+
+def check_path(to: Path) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` now for a file that could not be written later."""
+    if to.suffix.lower() not in KINDS:
+        raise InputError(Fault("--to", "unknown kind of file", str(to), "end it in .csv or .xlsx"))
+    if to.suffix.lower() == ".xlsx" and importlib.util.find_spec("xlsxwriter") is None:
+        raise InputError(Fault("--to", "needs xlsxwriter", str(to), 'pip install "ballscrew[data]"'))
+    check_writable("--to", to)
+
+
+def write_csv(path: Path, table: RowTable) -> None:
+    """The rows of a table as CSV, below its headings."""
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        csv.writer(stream, lineterminator="\n").writerows([table.headings, *table.rows])
+
+
+def xlsx_bytes(tables: Mapping[str, RowTable]) -> bytes:
+    """A workbook with a sheet for each table, by title."""
+    import xlsxwriter
+
+    buffer = io.BytesIO()
+    workbook = xlsxwriter.Workbook(buffer, {"in_memory": True})
+    bold = workbook.add_format({"bold": True})
+    for title, table in tables.items():
+        sheet = workbook.add_worksheet(title)
+        sheet.freeze_panes(1, 1)
+        for number, row in enumerate([table.headings, *table.rows]):
+            sheet.write_row(number, 0, row, bold if number == 0 else None)
+        sheet.autofit()
+    workbook.close()
+    return buffer.getvalue()

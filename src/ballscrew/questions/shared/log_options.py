@@ -34,3 +34,14 @@ Inertia = Annotated[
     ),
 ]
 KeepGoing = Annotated[bool, Option("Leave faulty rows out, and say how many.")]
+
+
+Level = Annotated[
+    float | None, Option("With --band: share of the samples in the band; 0.95 if left out.", metavar="SHARE")
+]
+OnlyGiven = Annotated[bool, Option("With --band: only the uncertain inputs that the case file gives.")]
+
+
+def number_of_samples(meaning: str) -> Option:
+    """How many samples a band has; a meaning says of what, and how many there are if it is left out."""
+    return Option(f"With --band: {meaning}.", metavar="N")

@@ -14,7 +14,8 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.provenance import of_case
 from ballscrew.engine.uncertainty.bands import ENDS, inner_end, inner_levels
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.declared import FINITE, LEFT_OUT
+from ballscrew.questions.shared.answer_parts import Said
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, schema
 from ballscrew.questions.sweep.compute import Plan, implausible, starved
 
 
@@ -127,3 +128,7 @@ def warnings(dataset: xr.Dataset) -> list[Record]:
             limit=0.0,
         )
     ]
+
+
+class Sweep(schema(SweepResults), Said):
+    """Results over ranges of the operating point or of other fields."""

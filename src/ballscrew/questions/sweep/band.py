@@ -22,7 +22,7 @@ from ballscrew.engine.uncertainty.bands import ENDS, INNER_LEVELS, NUT_SAMPLES, 
 from ballscrew.engine.uncertainty.distributions import Distribution, scaled
 from ballscrew.engine.uncertainty.sampling import Joint
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.questions.band import compute as bands
+from ballscrew.questions.band import compute
 from ballscrew.questions.band.compute import LEVEL
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.shared.option_values import faults_named
@@ -70,7 +70,7 @@ def with_band(
     if count is None:
         count = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
     level = LEVEL if options.level is None else options.level
-    with faults_named(bands.FLAGS):
+    with faults_named(compute.FLAGS):
         raise_if_any(faults_of_options(outputs, count, _SEED, level, None))
     dims = tuple(plan.axes)
     shape = tuple(len(values) for values in plan.axes.values())
@@ -177,7 +177,7 @@ def _groups(
             chosen,
             PointGroup(
                 subjects[key[0]],
-                bands.alternatives(of_place[chosen[0]].case),
+                compute.alternatives(of_place[chosen[0]].case),
                 {name: values[chosen] for name, values in points.items() if name not in own},
                 [of_place[place].uncertain for place in chosen],
                 [of_place[place].joint for place in chosen],
@@ -210,4 +210,4 @@ def _inputs_at(
         exact=(case.exact - varied) | varied.intersection(calibrated),
     )
     result = uncertain_inputs.all_of(at, only_given)
-    return _Inputs(at, *bands.distributions(at, result))
+    return _Inputs(at, *compute.distributions(at, result))

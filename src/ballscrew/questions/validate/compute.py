@@ -21,7 +21,7 @@ from ballscrew.files.tables.rows import made, read
 from ballscrew.physics.friction.calibrations import Calibration, calibrated, calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.traits import traits_of
-from ballscrew.questions.card import compute as torque_cards
+from ballscrew.questions import card
 from ballscrew.questions.validate.uncertainty import with_bands
 
 DEFAULT_CALIBRATION = "rexroth-2006"
@@ -169,7 +169,7 @@ def columns_of(data: ValidationSet) -> list[Column]:
 def evaluate(request: Request) -> Iterator[tuple[list[Entry], list[str]]]:
     """Each set or card with its entries, uncalibrated first, and notes on rows left out or on the card."""
     if request.cards:
-        yield from torque_cards.evaluate(request.cards, request.model, request.calibration)
+        yield from card.evaluate(request.cards, request.model, request.calibration)
     for data in request.sets:
         models: list[tuple[FrictionModel, str | None]] = [(request.model, None)]
         if data.calibratable and request.calibration is not None:

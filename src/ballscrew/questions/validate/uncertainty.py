@@ -17,7 +17,7 @@ from ballscrew.evidence.validation.entries import Entry, OperatingPoint
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import calibrations
-from ballscrew.questions.band import compute as bands
+from ballscrew.questions.band import compute
 
 #: Samples of a row. The ends of a band of so many scatter by some per cent, which the width of the band hides.
 SAMPLES = 256
@@ -64,7 +64,7 @@ def _kind(case: Case, inputs: Mapping[str, Uncertain]) -> Hashable:
 def _bands(cases: Sequence[Case], inputs: Sequence[Mapping[str, Uncertain]], samples: int) -> list[tuple[float, float]]:
     """The ends of the bands of cases of one kind."""
     first = cases[0]
-    distributions = [bands.distributions(case, one) for case, one in zip(cases, inputs, strict=True)]
+    distributions = [compute.distributions(case, one) for case, one in zip(cases, inputs, strict=True)]
     # other than the first in nothing but numbers
     numbers = {name: [getattr(case.screw, name) for case in cases] for name in fields_of(BallScrew)}
     values = {name: np.array(of, dtype=float) for name, of in numbers.items() if any(one != of[0] for one in of)}
@@ -75,11 +75,11 @@ def _bands(cases: Sequence[Case], inputs: Sequence[Mapping[str, Uncertain]], sam
     }
     group = PointGroup(
         Configuration(first.model, first.screw, first.lubricant),
-        bands.alternatives(first),
+        compute.alternatives(first),
         values,
         [independent for independent, _ in distributions],
         [joint for _, joint in distributions],
     )
     # so few points are sooner computed by the model itself than recorded
-    both = bands_of(group, [_TORQUE], count=samples, seed=0, level=bands.LEVEL, engine="model").both[_TORQUE]
+    both = bands_of(group, [_TORQUE], count=samples, seed=0, level=compute.LEVEL, engine="model").both[_TORQUE]
     return [(float(low), float(high)) for low, high in zip(*both, strict=True)]

@@ -9,8 +9,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew.axis.duty_cycle import duty as axis_duty
-from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.duty_cycle.duty import Duty, cycle
 from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.motion.states import Numbers
@@ -301,7 +300,7 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
     check_oil(case)
     also = bearings_of(case)
     if case.motion is not None and (axis := case.turning_axis) is not None:
-        return axis_duty.cycle(case.model, case.screw, case.lubricant, axis=axis, motion=case.motion, also=also), None
+        return cycle(case.model, case.screw, case.lubricant, axis=axis, motion=case.motion, also=also), None
     stroke = stroke_of(case, surroundings)
     point = case.operation
     duty = to_and_fro(

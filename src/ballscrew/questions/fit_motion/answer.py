@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.basis.errors import spoken
+from ballscrew.basis.errors import InputError, spoken
 from ballscrew.basis.output.sheet import (
     Axis,
     Bar,
@@ -31,10 +33,179 @@ from ballscrew.basis.output.sheet import (
     warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.records import documents
+from ballscrew.basis.references import documentation, keys_in
+from ballscrew.cases.case_files import case_file, provenance
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
+from ballscrew.evidence.moving_logs import reading
 from ballscrew.evidence.moving_logs.linear_model import NAMES
-from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, QUANTITIES, SCREW, MotionEstimate, MotionFit
+from ballscrew.evidence.moving_logs.motion_fit import (
+    LINEAR,
+    POWER,
+    QUANTITIES,
+    SCREW,
+    MotionEstimate,
+    MotionFit,
+    fit_motion,
+)
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.questions.fit_motion.options import FitMotionOptions
+from ballscrew.questions.shared.declared import attributes
+from ballscrew.questions.shared.option_values import assignments
+from ballscrew.questions.shared.options import options_of
+
+#: Flags of the command line by the fields in which the fit finds faults.
+_FLAGS = {f"fit.{name}": option.flag for name, option in options_of(FitMotionOptions).items()}
+
+
+def fit(case: Case, log: MovingLog, test: MovingLog | None, options: FitMotionOptions) -> MotionFit:
+    """Fit of a case to a moving log. Raises ``InputError`` that names options of the command line."""
+    try:
+        result = fit_motion(
+            case.model,
+            case.screw,
+            case.lubricant,
+            log,
+            options.free or None,
+            carried_mass=options.carried_mass,
+            test=test,
+            keep_going=options.keep_going,
+            seed=options.seed,
+        )
+    except InputError as error:
+        faults = (dataclasses.replace(one, where=_FLAGS.get(one.where, one.where)) for one in error.faults)
+        raise InputError(*faults) from None
+    return dataclasses.replace(result, warning_records=(*result.warning_records, *case.implausible()))
+
+
+def is_moving(path: Path, columns: Mapping[str, str] | Sequence[str]) -> bool:
+    """Test whether a file is a moving log; ``columns`` are headings by name, or ``name=heading`` of a command line."""
+    named = (text.partition("=") for text in assignments(columns))
+    return reading.is_moving(path, {name.strip(): heading.strip() for name, _, heading in named if heading.strip()})
+
+
+def moving_log(case: Case, path: Path, options: FitMotionOptions, usual_gain: float | None = None) -> MovingLog:
+    """The log of a file; ``usual_gain`` (N/V) holds where neither the file nor the options give one.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a log that cannot be used.
+    """
+    return reading.read_moving(
+        path,
+        options.columns,
+        lead=float(case.screw.lead),
+        torque_constant=options.torque_constant,
+        gain=options.gain,
+        usual_gain=usual_gain,
+        axis=options.axis,
+        period=options.period,
+        in_amperes=options.steady,
+        keep_going=options.keep_going,
+    )
+
+
+def document(case: Case, motion_fit: MotionFit) -> dict[str, Any]:
+    """Estimates, errors of the three models, what the filter does, what cannot be identified, provenance."""
+    crossed = {} if motion_fit.test is None else {"cross_error": motion_fit.cross_error}
+    name, digest = motion_fit.equation.log.source or ("log", "")
+    settings = {} if motion_fit.screw is None else {"free": list(motion_fit.screw.friction.asked)}
+    own = keys_in(documentation(type(motion_fit))) + keys_in(documentation(fit_motion))
+    return {
+        "kind": "motion",
+        "model": motion_fit.model,
+        "estimates": {name: _estimate(estimate) for name, estimate in motion_fit.estimates.items()},
+        "relative_error": motion_fit.relative_error,
+        **crossed,
+        "models": {name: _model(motion_fit, name) for name in motion_fit.relative_errors},
+        "speed_exponent": _exponent_document(motion_fit),
+        "filter": _filter(motion_fit),
+        "verdicts": [],
+        "checks": [],
+        "warnings": documents(motion_fit.warning_records),
+        "rows": _rows_document(motion_fit),
+        "inputs": case_file.inputs(case),
+        "provenance": {
+            **provenance.of_case(case),
+            "log": name,
+            "sha256": digest,
+            "settings": settings,
+            "references": list(dict.fromkeys([*provenance.references(case), *own])),
+        },
+    }
+
+
+def _estimate(estimate: MotionEstimate) -> dict[str, Any]:
+    return {
+        **attributes(estimate, "value", "std", "interval", "identified"),
+        "unit": estimate.quantity.unit,
+        **attributes(estimate, "model", "at_bound", "given"),
+    }
+
+
+def _model(motion_fit: MotionFit, name: str) -> dict[str, Any]:
+    """The numbers of one model, its relative error, and that on the other log."""
+    crossed = {} if motion_fit.test is None else {"cross_error": motion_fit.cross_errors[name]}
+    if name == SCREW and motion_fit.screw is not None:
+        crossed |= {"table_error": motion_fit.screw.table_error}
+    return {"numbers": _numbers(motion_fit, name), "relative_error": motion_fit.relative_errors[name], **crossed}
+
+
+def _numbers(motion_fit: MotionFit, name: str) -> dict[str, float]:
+    if name == LINEAR:
+        return dict(zip(NAMES, motion_fit.linear.values.tolist(), strict=True))
+    if name == POWER:
+        assert motion_fit.power is not None
+        shared = attributes(motion_fit.power, "mass", "offset", "constant_force", "coefficient")
+        return {**shared, "speed_exponent": motion_fit.power.exponent}
+    screw = motion_fit.screw
+    assert name == SCREW
+    assert screw is not None
+    return {
+        **attributes(screw, "mass", "offset", "constant_force"),
+        "remaining_viscous_coefficient": screw.viscous_coefficient,
+        **dict(zip(screw.friction.asked, screw.numbers.tolist(), strict=True)),
+        "carried_mass": screw.carried_mass,
+    }
+
+
+def _exponent_document(motion_fit: MotionFit) -> dict[str, Any] | None:
+    power = motion_fit.power
+    if power is None:
+        return None
+    own = {"value": power.exponent, "bootstrap_interval": list(power.bootstrap)}
+    return {**own, **attributes(power, "interval", "choices")}
+
+
+def _filter(motion_fit: MotionFit) -> dict[str, Any]:
+    """The filters that the noise asked for, and the linear model under others."""
+    equation = motion_fit.equation
+    effects = [
+        {"name": e.name, **dict(zip(NAMES, e.values.tolist(), strict=True)), "relative_error": e.relative_error}
+        for e in motion_fit.filter_effects
+    ]
+    return {
+        "cutoff": equation.cutoff,
+        "position_cutoff": equation.kinematics.cutoff,
+        "unit": "Hz",
+        "noise": equation.kinematics.noise,
+        "noise_unit": "m" if equation.log.position is not None else "m/s",
+        "dead_time_corrected": motion_fit.dead_time.corrected,
+        "effects": effects,
+    }
+
+
+def _rows_document(motion_fit: MotionFit) -> dict[str, Any]:
+    equation = motion_fit.equation
+    return {
+        "read": equation.log.rows,
+        "checked": len(equation.log),
+        "used": int(equation.used.size),
+        "left_out": dict(equation.left_out),
+        "block": motion_fit.linear.solution.block,
+        "blocks": motion_fit.linear.solution.blocks,
+        "notes": list(equation.log.notes),
+    }
+
 
 #: The models as they are shown, and their colours.
 SPOKEN = {LINEAR: "constant + viscous", POWER: "power of speed", SCREW: "screw model"}

@@ -1,4 +1,4 @@
-"""The results of a fit, declared once: JSON, its units, its schema and the columns of its table follow from them."""
+"""Response models of the API for a fit."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from ballscrew.basis.quantities import Info, TemperatureDifference, Torque
 from ballscrew.basis.records import documents
@@ -17,9 +18,13 @@ from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.fit_result import Estimate, Trend
 from ballscrew.evidence.calibration.identifiability import Combination
 from ballscrew.evidence.calibration.oil_temperature import TEMPERATURE_ERROR
-from ballscrew.questions.fit.compute import FitReport
+from ballscrew.files.tables.headings import NO_COLUMN
+from ballscrew.files.torque_logs.columns import COLUMNS
+from ballscrew.files.torque_logs.preview import Preview, SeenColumn
+from ballscrew.questions.fit.compute import Candidate, FitReport
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.declared import Column, from_attributes
+from ballscrew.questions.shared.answer_parts import Closed, FaultLine, Record, Shown, Tables, field
+from ballscrew.questions.shared.declared import Column, from_attributes, schema
 
 
 class FittedNumber(NamedTuple):
@@ -207,3 +212,121 @@ def document(case: Case, report: FitReport) -> dict[str, Any]:
         "provenance": fitted_case.provenance_of(case, model),
         **({"assumed": list(report.assumed)} if report.assumed else {}),
     }
+
+
+class KnownColumn(NamedTuple):
+    """A column that a log may have."""
+
+    name: str
+    meaning: str
+    #: SI.
+    unit: str
+    shown_in: str
+    required: bool
+
+
+class FreeNumber(NamedTuple):
+    """A number that may be fitted."""
+
+    name: str
+    meaning: str
+    symbol: str
+    #: SI.
+    unit: str
+    shown_in: str
+    #: In the case, SI.
+    value: float
+
+
+class LogColumns(NamedTuple):
+    """The columns of a log, and what may be fitted to it."""
+
+    file: str
+    #: Of a moving axis: ballscrew fit takes it, this address does not.
+    moving: bool
+    columns: Sequence[SeenColumn]
+    more_columns: int
+    #: Values that count in every row, SI.
+    constants: Mapping[str, float]
+    known: Sequence[KnownColumn]
+    #: Columns that are needed and not there.
+    missing: Sequence[str]
+    #: Numbers that are usually uncertain.
+    free: Sequence[FreeNumber]
+
+
+def columns_document(preview: Preview, candidates: Sequence[Candidate], *, moving: bool) -> dict[str, Any]:
+    """The columns of a file, the columns that a log may have, and the numbers that may be fitted."""
+    answer = from_attributes(
+        LogColumns,
+        preview,
+        moving=moving,
+        known=[
+            KnownColumn(column.name, quantity.info.meaning, quantity.unit, quantity.shown_in, column.required)
+            for column in COLUMNS
+            if (quantity := column.quantity) is not None
+        ],
+        missing=[fault.column for fault in preview.faults if fault.id == NO_COLUMN],
+        free=[
+            FreeNumber(name, quantity.info.meaning, quantity.info.symbol, quantity.unit, quantity.shown_in, value)
+            for name, quantity, value in candidates
+        ],
+    )
+    faults = [{**fault.document(), "column": fault.column} for fault in preview.faults]
+    return {**declared.document(answer), "faults": faults}
+
+
+class ColumnFault(FaultLine):
+    """A fault of the columns of a log."""
+
+    column: str = Field(description="that it is about; may be empty")
+
+
+class Log(schema(LogColumns)):
+    """The columns of a log, and what may be fitted to it."""
+
+    faults: list[ColumnFault] = Field(description="for which the log cannot be read as it is")
+
+
+class ExampleLog(Closed):
+    """A log to try."""
+
+    name: str
+    text: str
+
+
+class Example(Closed):
+    """A case, and logs that belong to it."""
+
+    file: str
+    case: Tables
+    logs: list[ExampleLog]
+    free: list[str] = Field(description="numbers to fit to the logs")
+
+
+class Examples(Closed):
+    """Logs to try; no screw was measured for them."""
+
+    condition: Example
+    fit: Example
+    service: Example
+
+
+class Calibrated(Closed):
+    """The case with the fitted numbers and ``[calibration]``."""
+
+    toml: str
+    case: Tables
+
+
+class Fit(schema(FitResults), Shown):
+    """A case fitted to a log."""
+
+    units: Tables
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record] = Field(description="also what cannot be told apart")
+    inputs: Tables
+    provenance: Tables
+    assumed: list[str] = field(optional=True)
+    calibrated: Calibrated

@@ -1,10 +1,10 @@
-"""The growth of a warm shaft as a compensation of positions: even steps along the axis, with what they miss."""
+"""The sheet of a compensation of positions: what it holds for, its numbers, and the warm-up that they come from."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -13,11 +13,25 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, nearest
-from ballscrew.basis.quantities import Duration, Length, Unit
+from ballscrew.basis.output.sheet import (
+    Axis,
+    Chart,
+    Column,
+    Columns,
+    Curve,
+    Line,
+    Lines,
+    Number,
+    Sheet,
+    Table,
+    verdict_lines,
+    warning_lines,
+)
+from ballscrew.basis.quantities import Duration, Info, Length, Quantity, Unit
 from ballscrew.questions.compensation.options import STEP, CompensationOptions
 from ballscrew.questions.shared.envelope import envelope
-from ballscrew.questions.warm_up import verdicts
 from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, check_hours
+from ballscrew.questions.warm_up.verdicts import verdicts, warnings
 
 #: The number of points of a list at most (SINUMERIK 808D).
 MOST = 200
@@ -161,6 +175,94 @@ def document(result: PositionCompensation, report: WarmUpReport) -> dict[str, An
             result.direction,
         ),
         assumed=report.assumed,
-        warnings=verdicts.warnings(report),
-        verdicts=verdicts.verdicts(report),
+        warnings=warnings(report),
+        verdicts=verdicts(report),
+    )
+
+
+_WIDTH = 28
+
+
+def sinumerik(position_compensation: PositionCompensation, axis: str) -> str:
+    """``_N_AX_EEC_INI`` of a machine axis, ``X1``."""
+    points = enumerate((1e3 * position_compensation.errors).tolist())
+    first, last = (1e3 * float(position_compensation.positions[end]) for end in (0, -1))
+    lines = [
+        "%_N_AX_EEC_INI",
+        "CHANDATA(1)",
+        *(f"$AA_ENC_COMP[0,{k},{axis}]={value:.5f}" for k, value in points),
+        f"$AA_ENC_COMP_STEP[0,{axis}]={1e3 * position_compensation.step:.6f}",
+        f"$AA_ENC_COMP_MIN[0,{axis}]={first:.4f} ; {position_compensation.mounting}",
+        f"$AA_ENC_COMP_MAX[0,{axis}]={last:.4f} ; {_state(position_compensation)}",
+        f"$AA_ENC_COMP_IS_MODULO[0,{axis}]=0",
+        "M17",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def isg(position_compensation: PositionCompensation, axis: str) -> str:
+    """``kw.ssfk.*`` for both directions, of an axis by its name."""
+    positions, values = (
+        np.round(1e7 * each).astype(int).tolist()
+        for each in (position_compensation.positions, position_compensation.errors)
+    )
+    entries: dict[str, object] = {
+        "kopf.log_achs_name": axis,
+        "kw.ssfk.interval": 0,
+        "kw.ssfk.kw_startpos": positions[0],
+        "kw.ssfk.kw_nr_max": len(positions),
+        "kw.ssfk.unit": 1,
+        "kw.ssfk.bilateral": 1,
+    }
+    for name, column in (("setpoint", positions), ("pos", values), ("neg", values)):
+        entries |= {f"kw.ssfk.table[{k}].{name}": value for k, value in enumerate(column)}
+    said = (f"# {line}" for line in (position_compensation.mounting, _state(position_compensation)))
+    return "\n".join([*said, *(f"{name:<{_WIDTH}} {value}" for name, value in entries.items()), ""])
+
+
+def _state(position_compensation: PositionCompensation) -> str:
+    return f"holds after {position_compensation.hours:g} h of the work of its case only"
+
+
+#: The lists by the name of the control.
+LISTS: Mapping[str, Callable[[PositionCompensation, str], str]] = {"sinumerik": sinumerik, "isg": isg}
+
+
+_POSITION = Quantity("position", "m", Info("x", "position of the axis", "mm"))
+_ERROR = Quantity("error", "m", Info("e", "by how much the nut is farther along", "um"))
+
+
+def sheet(result: PositionCompensation, report: WarmUpReport) -> Sheet:
+    """All that people see of a compensation."""
+    positions, errors = result.positions, result.errors
+    return Sheet(
+        f"compensation of {len(positions)} points at steps of {units.shown(result.step, _POSITION)}: "
+        f"it holds after {result.hours:g} h of this work only",
+        [
+            verdict_lines(verdicts(report)),
+            warning_lines(warnings(report)),
+            Table(
+                "range",
+                "Growth of the shaft",
+                ("", "from", "to"),
+                [
+                    ["position", Number(positions[0], _POSITION), Number(positions[-1], _POSITION)],
+                    ["error", Number(errors.min(), _ERROR, 3), Number(errors.max(), _ERROR, 3)],
+                ],
+                [
+                    result.missed,
+                    f"taken: {result.mounting} (--direction, --zero); if that is not so, signs and places are wrong",
+                    "format checked against the manual, not on a control",
+                ],
+            ),
+            Chart(
+                "error over position",
+                Axis("position", _POSITION),
+                Axis("error", _ERROR),
+                [Curve("", positions, errors)],
+            ),
+            Lines([Line(f"assumed: {text}", "small") for text in report.assumed]),
+            Columns("points", [Column("position", positions, _POSITION), Column("error", errors, _ERROR)]),
+        ],
     )

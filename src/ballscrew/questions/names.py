@@ -1,9 +1,10 @@
-"""Names that case files and commands take, each from its one source: grades, laws, models, inputs and outputs."""
+"""``ballscrew list``: names, one line each, by group."""
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from itertools import groupby
 from typing import Any, NamedTuple
 
 from ballscrew.basis.errors import Fault, InputError, nearest
@@ -104,3 +105,15 @@ KINDS: Mapping[str, Callable[[Case | None], list[Name]]] = {
 def document(kind: str, result: Sequence[Name]) -> dict[str, Any]:
     """The names of a kind, with their groups, SI units and meanings."""
     return {"results": {kind: [one._asdict() for one in result]}, "warnings": []}
+
+
+def text(names: Sequence[Name]) -> str:
+    """The names in columns: name, unit, meaning; a heading before each group where there are several."""
+    groups = [(group, list(each)) for group, each in groupby(names, key=lambda one: one.group)]
+    width = max((len(one.name) for one in names), default=0)
+    units = max((len(one.unit) for one in names), default=0)
+    lines: list[str] = []
+    for group, each in groups:
+        lines += [f"{group}:"] if len(groups) > 1 else []
+        lines += ["  ".join([f"{one.name:<{width}}", f"{one.unit:<{units}}", one.meaning]).rstrip() for one in each]
+    return "\n".join(lines)

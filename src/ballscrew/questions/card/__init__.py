@@ -1,1 +1,0 @@
-"""A torque card: what was measured on one screw, and the model beside it."""

@@ -1,1 +1,0 @@
-"""The names that may stand in a case file."""

@@ -1,1 +1,0 @@
-"""The oils and greases of the library."""
