@@ -11,13 +11,13 @@ testclient = pytest.importorskip("starlette.testclient", reason="needs httpx, of
 @pytest.fixture
 def asked(monkeypatch):
     """A client, and what was computed for it."""
-    computed, band = [], api.bands.band
+    computed, band = [], api.compute.band
 
     def counted(case, options, done):
         computed.append((case.operation.axial_load, options.samples))
         return band(case, options, done)
 
-    monkeypatch.setattr(api.bands, "band", counted)
+    monkeypatch.setattr(api.compute, "band", counted)
     with testclient.TestClient(server.application(), base_url="http://localhost") as client:
         yield client, computed
 

@@ -99,7 +99,7 @@ def test_a_case_is_built_and_run_once(monkeypatch, paper):
     built, ran = [], []
     build, run = case_file.build, compute.run
     monkeypatch.setattr(bodies.case_file, "build", lambda *a, **k: (built.append(a), build(*a, **k))[1])
-    monkeypatch.setattr(documents.runs, "run", lambda *a, **k: (ran.append(a), run(*a, **k))[1])
+    monkeypatch.setattr(documents.compute, "run", lambda *a, **k: (ran.append(a), run(*a, **k))[1])
     # as a server that has answered nothing yet
     documents._runs.clear()
 

@@ -226,7 +226,7 @@ def test_a_disconnect_stops_the_work(monkeypatch, paper):
         finally:
             stopped.set()
 
-    monkeypatch.setattr(api.bands, "band", endless)
+    monkeypatch.setattr(api.compute, "band", endless)
     body = json.dumps({"case": paper}).encode()
     scope = {
         "type": "http", "asgi": {"version": "3.0"}, "http_version": "1.1", "method": "POST", "scheme": "http",

@@ -14,16 +14,16 @@ import textwrap
 import threading
 from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
-from typing import IO, Any
-
-import matplotlib as mpl
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from typing import IO, TYPE_CHECKING, Any
 
 from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.output.markup import escaped
 from ballscrew.basis.output.sheet import Colour
+
+if TYPE_CHECKING:  # matplotlib is slow to import: only where a picture is drawn
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 #: Colours of Okabe and Ito, told apart with any colour vision.
 BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW = (
@@ -149,6 +149,8 @@ class Plot:
 @contextlib.contextmanager
 def house_style() -> Generator[None]:
     """The style for drawing and saving, whatever the user's own settings are."""
+    import matplotlib as mpl
+
     with mpl.rc_context():
         mpl.rcdefaults()
         mpl.rcParams.update(STYLE)
@@ -166,6 +168,8 @@ def new_figure(
 
 def captioned_figure(caption: str, width: float, height: float) -> Figure:
     """A figure without panels, of a size in inches to which the room for its caption is added."""
+    from matplotlib.figure import Figure
+
     lines = textwrap.wrap(caption, int(width * _CAPTION_CHARACTERS_PER_INCH))
     margin = CAPTION_LINE * len(lines) + 0.14
     figure = Figure(figsize=(width, height + margin), layout="constrained")
@@ -208,6 +212,8 @@ _LOCK = threading.Lock()
 
 def svg_of(draw: Callable[[], Figure], name: str) -> str:
     """One figure as SVG text without a title, in the style of a report."""
+    import matplotlib as mpl
+
     with _LOCK, house_style():
         mpl.rcParams.update(_SMALL)
         return _text_of(draw(), name)
