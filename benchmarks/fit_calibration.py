@@ -325,7 +325,7 @@ def _shown(value: float) -> str:
 
 
 def ratios_text(found: Mapping[str, Fit]) -> str:
-    """Model / middle of the band, row by row, as it is stored for :mod:`ballscrew.evidence.validation.nearest`."""
+    """Model / middle of the band, row by row, as it is stored for :mod:`ballscrew.evidence.validation.entries`."""
     models = {"uncalibrated": FrictionModel.reference()}
     models |= {name: DECLARED[name].model(*map(float, one.values)) for name, one in found.items()}
     by_model = {name: [(e, p) for e in entries(model) for p in e.points] for name, model in models.items()}

@@ -30,7 +30,7 @@ from ballscrew.physics.laws.ball_chain import ProportionalBallForce
 from ballscrew.physics.laws.friction import ZhouHoeprich
 from ballscrew.physics.solvers import strips
 from ballscrew.physics.solvers.line_slip import line_slip
-from ballscrew.physics.solvers.pure_rolling import curvature_slip
+from ballscrew.physics.solvers.slip import curvature_slip
 from oracles.contact_integral import ContactIntegral, contact_integral
 from oracles.free_ball import BallResistances
 from oracles.tractions import Coulomb

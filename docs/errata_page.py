@@ -13,7 +13,7 @@ from pathlib import Path
 
 import make_equation_table
 from ballscrew.basis.references import PaperEquation, paper_equations
-from ballscrew.evidence.papers.olaru2005.repairs import REPAIRS, Repair, repairs
+from ballscrew.evidence.papers.olaru2005.closures import REPAIRS, Repair, repairs
 from ballscrew.physics.equations import friction, hertz, rolling
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from effect_study.cases import PAPER, RPM

@@ -11,9 +11,9 @@ from typing import Any
 from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import Segment, Trapezoid
+from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, STATICS
 from ballscrew.axis.supports.guide import LinearGuide
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, fields_of

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.evidence.papers.olaru2005.repairs import repairs
+from ballscrew.evidence.papers.olaru2005.closures import repairs
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.equations import life, preload, slip, transmission
 from ballscrew.physics.friction.model import FrictionModel

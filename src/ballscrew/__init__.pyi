@@ -12,9 +12,9 @@ from ballscrew.axis.motion.profiles import Segments as Segments
 from ballscrew.axis.motion.profiles import Sine as Sine
 from ballscrew.axis.motion.profiles import Trapezoid as Trapezoid
 from ballscrew.axis.supports.bearing import SupportBearing as SupportBearing
-from ballscrew.axis.supports.contact_guide import ContactGuide as ContactGuide
+from ballscrew.axis.supports.guide import ContactGuide as ContactGuide
 from ballscrew.axis.supports.guide import LinearGuide as LinearGuide
-from ballscrew.axis.thermal.steady_heat import steady_heat as steady_heat
+from ballscrew.axis.thermal.equilibrium import steady_heat as steady_heat
 from ballscrew.axis.thermal.surroundings import Surroundings as Surroundings
 from ballscrew.axis.thermal.warm_sweep import warm_sweep as warm_sweep
 from ballscrew.axis.thermal.warm_up import warm_up as warm_up
@@ -22,7 +22,7 @@ from ballscrew.axis.thermal.warm_up_band import warm_up_band as warm_up_band
 from ballscrew.basis.errors import ImplausibleInput as ImplausibleInput
 from ballscrew.basis.errors import InputError as InputError
 from ballscrew.basis.version import __version__ as __version__
-from ballscrew.cases.case_files.oil_library import oils as oils
+from ballscrew.cases.case_files.lubricants import oils as oils
 from ballscrew.cases.screw_tables.catalogue import screws as screws
 from ballscrew.engine.evaluation.derivatives import derivatives as derivatives
 from ballscrew.engine.evaluation.evaluator import evaluator as evaluator
@@ -38,10 +38,10 @@ from ballscrew.engine.uncertainty.monte_carlo import monte_carlo as monte_carlo
 from ballscrew.engine.uncertainty.sensitivity import sensitivity as sensitivity
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.evidence.calibration.fit import fit as fit
-from ballscrew.evidence.moving_logs.log_kind import read_log as read_log
 from ballscrew.evidence.moving_logs.motion_fit import MotionFit as MotionFit
 from ballscrew.evidence.moving_logs.motion_fit import fit_motion as fit_motion
 from ballscrew.evidence.moving_logs.moving_log import MovingLog as MovingLog
+from ballscrew.evidence.moving_logs.reading import read_log as read_log
 from ballscrew.evidence.service.condition import condition as condition
 from ballscrew.evidence.service.condition_values import Condition as Condition
 from ballscrew.evidence.service.preload_change import PreloadChange as PreloadChange
@@ -66,7 +66,7 @@ from ballscrew.physics.components.screw import BallScrew as BallScrew
 from ballscrew.physics.friction.breakaway import Breakaway as Breakaway
 from ballscrew.physics.friction.breakaway import breakaway as breakaway
 from ballscrew.physics.friction.model import FrictionModel as FrictionModel
-from ballscrew.physics.friction.nut_friction import nut_friction as nut_friction
+from ballscrew.physics.friction.model import nut_friction as nut_friction
 from ballscrew.physics.friction.result import FrictionResult as FrictionResult
 from ballscrew.physics.laws.film import HamrockDowson as HamrockDowson
 from ballscrew.physics.laws.friction import ZhouHoeprich as ZhouHoeprich

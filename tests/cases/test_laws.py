@@ -17,7 +17,7 @@ from ballscrew.engine.evaluation.comparison import same_law
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.laws import ball_chain, friction, rolling
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
-from ballscrew.physics.solvers.pure_rolling import curvature_slip
+from ballscrew.physics.solvers.slip import curvature_slip
 
 EVERY_LAW = [(slot, name) for slot, known in case_schema.LAWS.items() for name in known]
 WITH_COEFFICIENTS = [(slot, name) for slot, name in EVERY_LAW if case_schema.coefficients_of(slot, name)]

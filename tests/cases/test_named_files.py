@@ -1,6 +1,6 @@
 """Files that a case names, where the case goes to another folder."""
 
-from ballscrew.cases.case_files.named_files import moved
+from ballscrew.cases.case_files.opened_file import moved
 
 
 def test_every_named_file_is_the_same_from_the_other_folder(tmp_path):

@@ -11,7 +11,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.physics.components.ratings import odd_preload, rating_of
+from ballscrew.physics.components.screw import odd_preload, rating_of
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from ballscrew.physics.sizing.own_nut import odd_ratings
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of

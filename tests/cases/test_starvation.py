@@ -35,8 +35,8 @@ from ballscrew.questions.sweep import table
 from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.warm_up import answer as warm_up_documents
 from ballscrew.questions.warm_up import self_heating
-from ballscrew.questions.warm_up.answer import with_self_heating
 from ballscrew.questions.warm_up.compute import load, warmed_up
+from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet as warm_up_sheet
 from support.commands import ROOT
 

@@ -11,7 +11,7 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.torque_cards import torque_card, torque_card_log
+from ballscrew.cases.torque_cards import torque_card
 from ballscrew.questions.validate import compute, document
 from ballscrew.questions.validate.sheet import sheet
 
@@ -132,7 +132,7 @@ def test_cards_go_with_no_set():
 
 def test_a_card_as_a_log_and_a_case(tmp_path):
     card, log, case = torque_card.read(EXAMPLE), tmp_path / "log.csv", tmp_path / "case.toml"
-    torque_card_log.write(card, EXAMPLE.parent, log, case)
+    torque_card.write(card, EXAMPLE.parent, log, case)
     rows = list(csv.DictReader(line for line in log.read_text(encoding="utf-8").splitlines() if line[0] != "#"))
     assert len(rows) == 2 * len(card.points)
     assert [float(rows[i]["speed [rpm]"]) for i in (0, 1)] == [10, -10]

@@ -12,9 +12,8 @@ import pytest
 import ballscrew as bs
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.steps import Step
-from ballscrew.exports.export import Export
+from ballscrew.exports.export import Export, target
 from ballscrew.exports.programs import c99, c_source, interpreter, program_file
-from ballscrew.exports.targets import target
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.solvers.line_slip import TOLERANCE, line_slip

@@ -9,9 +9,8 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.exports import hand_over, requests, targets
-from ballscrew.exports.export import Export, worst_errors
-from ballscrew.exports.targets import TARGETS, target
+from ballscrew.exports import export, hand_over
+from ballscrew.exports.export import TARGETS, Export, target, worst_errors
 
 OIL = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
 
@@ -42,8 +41,8 @@ def test_a_program_named_for_a_target_is_answered_with_the_target(name, taker):
 
 
 def test_every_program_is_named_with_a_target():
-    assert {*targets._TAKEN_BY.values()} <= {*TARGETS}
-    assert not {*targets._TAKEN_BY} & {*TARGETS}
+    assert {*export._TAKEN_BY.values()} <= {*TARGETS}
+    assert not {*export._TAKEN_BY} & {*TARGETS}
 
 
 def test_the_recorded_model_is_the_model(handed):
@@ -175,10 +174,10 @@ def test_nothing_is_written_where_a_place_is_taken(tmp_path):
 
 def test_ranges_and_options_are_read_as_people_write_them(example):
     case = case_file.load(example)
-    asked = requests.Request(
+    asked = hand_over.Request(
         ranges=['axial_load="-5:4 kN"', 'temperature="10:50 degC"'], options=["version=3"], outputs=["efficiency"]
     )
-    export = requests.of_case(case, "fmu", asked)
+    export = hand_over.of_case(case, "fmu", asked)
     assert export.valid_range["axial_load"] == (-5000.0, 4000.0)
     assert export.provenance["references"][0] == "Olaru2005"
     assert export.valid_range["temperature"] == pytest.approx((283.15, 323.15))
@@ -198,7 +197,7 @@ def test_ranges_and_options_are_read_as_people_write_them(example):
 )
 def test_faults_of_text_name_the_option(example, asked, expected):
     with pytest.raises(bs.InputError) as fault:
-        requests.of_case(case_file.load(example), "fmu", requests.Request(**asked))
+        hand_over.of_case(case_file.load(example), "fmu", hand_over.Request(**asked))
     assert str(fault.value).startswith(expected)
 
 

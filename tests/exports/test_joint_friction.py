@@ -8,8 +8,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
+from ballscrew.exports.export import target
 from ballscrew.exports.programs import joint_friction
-from ballscrew.exports.targets import target
 
 OPTIONS = {"load": 1000.0, "inertia": 2e-4}
 SPEED = np.geomspace(1 / 60, 1, 60)

@@ -14,7 +14,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.exports import requests
+from ballscrew.exports import hand_over
 
 if importlib.util.find_spec("mujoco") is None:
     pytest.skip("mujoco is not installed: pip install mujoco-core", allow_module_level=True)
@@ -176,7 +176,7 @@ def test_the_carriage_weighs_what_the_axis_of_the_case_does(folder, example, nam
 
     changes = ["axis.mass=350 kg", f"axis.inclination={inclination}", f"axis.counterweight={counterweight}"]
     case = case_file.load(example.parent / "vertical_axis.toml", changes)
-    made = requests.of_case(case, "mujoco", requests.Request(options=["plugin=test.small_screw"]))
+    made = hand_over.of_case(case, "mujoco", hand_over.Request(options=["plugin=test.small_screw"]))
     # the plugin that is loaded has another screw: its gear is not judged where the actuator is a motor
     text = re.sub(r"(?s)  <(extension|actuator|sensor)>.*?</\1>\n", "", made.files[name].decode())
     m = mujoco.MjModel.from_xml_string(text)

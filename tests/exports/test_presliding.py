@@ -8,7 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.exports import requests
+from ballscrew.exports import hand_over
 from ballscrew.exports.export import Export
 from ballscrew.exports.programs import c99
 from ballscrew.exports.programs.presliding import OPTIONS, options_of_case, presliding
@@ -207,6 +207,6 @@ def test_the_option_adds_files_and_leaves_the_model_alone(exported, handed_over)
 
 def test_the_options_are_read_from_text(example):
     case = case_file.load(example.parent / "feed_drive.toml", ["operation.screw_speed=6 rpm"])
-    made = requests.of_case(case, "c", requests.Request(options=["presliding=2", "presliding_load=1 kN"]))
+    made = hand_over.of_case(case, "c", hand_over.Request(options=["presliding=2", "presliding_load=1 kN"]))
     assert "axial_load = 1000.0 N, screw_speed = 0.6283185307179586 rad/s" in made.files["README.txt"].decode()
     assert list(OPTIONS) == ["presliding", "presliding_load", "presliding_speed"]

@@ -15,9 +15,9 @@ from scipy.io import loadmat
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.exports import requests
+from ballscrew.exports import hand_over
+from ballscrew.exports.export import TARGETS
 from ballscrew.exports.programs import interpreter
-from ballscrew.exports.targets import TARGETS
 
 from .compiled import evaluated, library, names, needs_a_compiler
 
@@ -88,7 +88,7 @@ def points_of(count, seed):
 
 def exported(case, to, options=()):
     bounded = to not in FORMULAS
-    return requests.of_case(case, to, requests.Request(ranges=RANGES if bounded else (), options=options))
+    return hand_over.of_case(case, to, hand_over.Request(ranges=RANGES if bounded else (), options=options))
 
 
 def compare(found, case, load, speed, temperature=None):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from ballscrew.engine.uncertainty import sobol
-from ballscrew.engine.uncertainty.morris import LEVELS, elementary_effects
+from ballscrew.engine.uncertainty.sensitivity import LEVELS, elementary_effects
 from ballscrew.engine.uncertainty.sobol import sobol_indices
 
 

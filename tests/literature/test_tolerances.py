@@ -2,7 +2,7 @@
 
 import pytest
 
-from ballscrew.engine.uncertainty.tolerances import BALL_LOT_VARIATION, TRAVEL_VARIATION, standard_tolerance
+from ballscrew.engine.uncertainty.uncertain_value import BALL_LOT_VARIATION, TRAVEL_VARIATION, standard_tolerance
 
 #: IT5, IT6, IT7 and IT8 in µm for sizes up to these, mm: the table of ISO 286-1.
 PRINTED = {

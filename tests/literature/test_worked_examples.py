@@ -14,7 +14,7 @@ from ballscrew.axis.duty_cycle.cycle_life import CycleLife, cubic_mean
 from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.supports import formulas
-from ballscrew.axis.supports.carriage_loads import CarriedMass, GuidedTable
+from ballscrew.axis.supports.guide import CarriedMass, GuidedTable
 from ballscrew.physics.components.materials import STEEL_DENSITY
 from ballscrew.physics.components.nut import SingleNut
 from ballscrew.physics.equations import life, rigidity, shaft, transmission

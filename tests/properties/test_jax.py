@@ -13,8 +13,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.engine.evaluation import jax_derivatives
-from ballscrew.engine.evaluation.jax_derivatives import jax_value_and_partials
+from ballscrew.engine.evaluation import derivatives
+from ballscrew.engine.evaluation.derivatives import jax_value_and_partials
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.laws import ball_chain, film, friction, hertz, inlet, rolling
@@ -217,8 +217,8 @@ def test_compiled_blocks_say_the_same(monkeypatch):
     outputs, by = ["screw_torque", "efficiency"], ["axial_load", "ball_diameter", "friction.decay"]
     function = outputs_of(subject, outputs)
     values, partials = jax_value_and_partials(function, points, outputs, by)
-    monkeypatch.setattr(jax_derivatives, "UNCOMPILED", 20)
-    monkeypatch.setattr(jax_derivatives, "BLOCK", 16)
+    monkeypatch.setattr(derivatives, "UNCOMPILED", 20)
+    monkeypatch.setattr(derivatives, "BLOCK", 16)
     calls = []
 
     def counted(inputs):

@@ -40,7 +40,7 @@ class Info:
     """The symbol, the meaning, the bounds and the display unit of a field.
 
     Values beyond the bounds are refused. ``usual`` is the range beyond which no ball screw is known; a value outside is
-    computed, with a warning (:mod:`ballscrew.physics.friction.plausibility`).
+    computed, with a warning (:mod:`ballscrew.physics.friction.validity`).
     """
 
     symbol: str

@@ -9,7 +9,7 @@ from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.version import __version__
-from ballscrew.cases.case_files.oil_library import TEXTS
+from ballscrew.cases.case_files.lubricants import TEXTS
 from ballscrew.physics.components.data_sheet import DataSheet
 from ballscrew.physics.components.materials import Lubricant
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import ruckig
 
-from ballscrew.axis.motion.moves import move, timing
-from ballscrew.axis.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
+from ballscrew.axis.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid, move, timing
 from ballscrew.axis.motion.states import states_of
 from ballscrew.basis.errors import InputError
 

@@ -9,9 +9,9 @@ import pytest
 import ballscrew as bs
 from ballscrew.axis.duty_cycle.brake import brake_of
 from ballscrew.axis.duty_cycle.duty_band import duty_band
-from ballscrew.axis.supports.carriage_loads import CarriedMass, GuidedTable
+from ballscrew.axis.supports.bearing import MountedBearing
+from ballscrew.axis.supports.guide import CarriedMass, GuidedTable
 from ballscrew.axis.supports.makers_bearing import KnownBearing, SKFBearing
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.physics.components.materials import GRAVITY
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]

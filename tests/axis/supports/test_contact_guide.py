@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis.supports import contact_guide
+from ballscrew.axis.supports import guide as contact_guide
 
 OIL = bs.Lubricant.from_grade("ISO VG 68", 303.15)
 SIZES = {"ball_diameter": 0.004, "balls": 14, "lubricant": OIL, "preload": 400.0, "carriages": 1}

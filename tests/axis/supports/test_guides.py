@@ -7,7 +7,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.axis.supports import formulas
-from ballscrew.axis.supports.carriage_loads import CarriedMass, GuidedTable
+from ballscrew.axis.supports.guide import CarriedMass, GuidedTable
 from ballscrew.physics.sizing.checks import mean_load
 
 #: PMI2008. Known are the numbers and the results; what each length is, and the stroke of 1500 mm, was found by them:

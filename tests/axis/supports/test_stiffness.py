@@ -9,8 +9,7 @@ from scipy.optimize import brentq
 
 import ballscrew as bs
 from ballscrew.axis.supports.catalogue_rows import support_units
-from ballscrew.axis.supports.shaft_on_supports import buckling_root, whirling_root
-from ballscrew.axis.supports.stiffness import stiffness_over_stroke
+from ballscrew.axis.supports.stiffness import buckling_root, stiffness_over_stroke, whirling_root
 from ballscrew.physics.sizing.installation import Ends, Installation
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 import ballscrew as bs
 from ballscrew.axis.thermal.equilibrium import equilibrium
 from ballscrew.axis.thermal.friction_map import FrictionMap
-from ballscrew.axis.thermal.marching import Piece, Slot, marched
+from ballscrew.axis.thermal.moving_source import Piece, Slot, marched
 from ballscrew.axis.thermal.network import Network, network_of
 from ballscrew.axis.thermal.shaft import CONDUCTIVITY, EXPANSION, Shaft
 from ballscrew.axis.thermal.surroundings import Surroundings

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.supports.makers_bearing import KnownBearing
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.axis.thermal.warm_sweep import HEAT
 from ballscrew.basis.errors import InputError
 

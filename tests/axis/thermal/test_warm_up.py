@@ -11,8 +11,8 @@ import ballscrew as bs
 from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.motion.profiles import Segment, Segments
+from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.supports.makers_bearing import KnownBearing
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.axis.thermal.network import network_of, steady
 from ballscrew.axis.thermal.surroundings import STILL, Surroundings
 from ballscrew.axis.thermal.warm_up import warm_up

@@ -10,8 +10,8 @@ import pytest
 import ballscrew as bs
 from ballscrew.axis.thermal import warm_up_band as module
 from ballscrew.axis.thermal.equilibrium import equilibrium
-from ballscrew.axis.thermal.marching import Piece, Slot, marched
 from ballscrew.axis.thermal.modes import functions
+from ballscrew.axis.thermal.moving_source import Piece, Slot, marched
 from ballscrew.axis.thermal.network import FrictionFactor
 from ballscrew.axis.thermal.surroundings import VARIED
 from ballscrew.axis.thermal.warm_up import warm_up
@@ -73,8 +73,8 @@ def test_steps_are_of_second_order(central, monkeypatch):
     instants = np.linspace(0.0, 600.0, 6)
 
     def after(steps):
-        monkeypatch.setattr("ballscrew.axis.thermal.marching.PER_NUT", steps)
-        monkeypatch.setattr("ballscrew.axis.thermal.marching.PER_TIME", 1e9)
+        monkeypatch.setattr("ballscrew.axis.thermal.moving_source.PER_NUT", steps)
+        monkeypatch.setattr("ballscrew.axis.thermal.moving_source.PER_TIME", 1e9)
         return list(marched([slot], pieces(instants), start))[-1].temperatures[0, -3]
 
     exact = after(256.0)
@@ -92,8 +92,8 @@ def test_the_steps_are_as_short_as_they_are_said_to_be(central, monkeypatch):
         return np.array([state.temperatures[0, -3] for state in states])
 
     usual = nut()
-    monkeypatch.setattr("ballscrew.axis.thermal.marching.PER_NUT", 30 * 8.0)
-    monkeypatch.setattr("ballscrew.axis.thermal.marching.PER_TIME", 30 * 30.0)
+    monkeypatch.setattr("ballscrew.axis.thermal.moving_source.PER_NUT", 30 * 8.0)
+    monkeypatch.setattr("ballscrew.axis.thermal.moving_source.PER_TIME", 30 * 30.0)
     assert np.max(np.abs(usual - nut())) < 5e-4
 
 

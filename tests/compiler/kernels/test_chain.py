@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ballscrew.compiler.kernels.chain import Chains, balanced_chains, chain_kernel
-from ballscrew.compiler.tracing.verbatim import verbatim_program
+from ballscrew.compiler.tracing.grid import verbatim_program
 
 LINKS, CHAINS = 7, 21
 RNG = np.random.default_rng(1)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ballscrew.compiler.kernels import pieces
+from ballscrew.compiler.kernels import emission
 from ballscrew.compiler.kernels.emission import kernel_text
 from ballscrew.compiler.kernels.kernel import Kernel
 from ballscrew.compiler.tracing.program import Program
@@ -35,7 +35,7 @@ def evaluated(text, points):
 @pytest.mark.slow
 @pytest.mark.parametrize("steps", [7, 100, 1000])
 def test_the_numbers_are_those_of_one_function(steps, monkeypatch):
-    monkeypatch.setattr(pieces, "STEPS", steps)
+    monkeypatch.setattr(emission, "STEPS", steps)
     program = long_program()
     masks = {"value": False, "above": True, "same": False, "early": False}
     rng = np.random.default_rng(3)
@@ -50,7 +50,7 @@ def test_the_numbers_are_those_of_one_function(steps, monkeypatch):
 def test_a_short_program_stays_in_one():
     program = long_program()
     masks = {"value": False, "above": True, "same": False, "early": False}
-    assert len(program.steps) < pieces.STEPS
+    assert len(program.steps) < emission.STEPS
     assert kernel_text(program, ["points", "points"], masks, in_pieces=True) == kernel_text(
         program, ["points", "points"], masks
     )

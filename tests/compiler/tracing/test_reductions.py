@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ballscrew.compiler.tracing.grid import split
+from ballscrew.compiler.tracing.merging import cut_at_reductions, reduced
 from ballscrew.compiler.tracing.program import Program
-from ballscrew.compiler.tracing.reductions import cut_at_reductions, reduced
 from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
 

@@ -26,7 +26,7 @@ from ballscrew.engine.uncertainty.default_uncertainties import (
     default_uncertainties,
 )
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
-from ballscrew.engine.uncertainty.sampling import JointNormal
+from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce, imposed_ball_force
 from ballscrew.physics.laws.friction import BalanSharing
 from ballscrew.physics.laws.rolling import houpert_rolling

@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 import ballscrew as bs
-from ballscrew.engine.uncertainty.one_at_a_time import one_at_a_time
+from ballscrew.engine.uncertainty.sensitivity import one_at_a_time
 
 MODEL = bs.FrictionModel.reference()
 SCREW = bs.catalogue()["hiwin-40-20k4"].screw()

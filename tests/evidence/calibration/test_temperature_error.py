@@ -12,8 +12,8 @@ from scipy.stats import t as student
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
 from ballscrew.evidence.calibration.fit import fit
-from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
 from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, log, truth
 

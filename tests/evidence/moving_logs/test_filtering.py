@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ballscrew.evidence.moving_logs.filtering import kinematics, low_pass, noise_cutoff
+from ballscrew.evidence.moving_logs.equation import kinematics, low_pass, noise_cutoff
 from support.moving_logs import record
 
 STEP = 1e-3

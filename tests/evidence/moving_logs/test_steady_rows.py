@@ -8,8 +8,8 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.evidence.moving_logs.power_law import steady_friction
 from ballscrew.evidence.moving_logs.reading import read_moving
-from ballscrew.evidence.moving_logs.steady_rows import steady_friction
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 FILES = [str(EXAMPLES / f"{name}.csv") for name in ("mill_slow", "mill_fast")]

@@ -13,7 +13,6 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.service.change_detection import Trend
 from ballscrew.evidence.service.condition_means import _faults_of_sources, _of_one_speed, of_logs
-from ballscrew.evidence.service.condition_parts import REPEATABILITY, USUAL
 from ballscrew.evidence.service.condition_records import (
     _of_baseline,
     _of_factor,
@@ -22,6 +21,7 @@ from ballscrew.evidence.service.condition_records import (
     _of_trend,
     span_of,
 )
+from ballscrew.evidence.service.condition_values import REPEATABILITY, USUAL
 from support import power_law
 from support.power_law import LEVER, MODEL, PER_KELVIN, SPEED, P, S, torque_of
 from support.service_logs import OIL, PRELOAD, SCREW, WARM

@@ -8,7 +8,7 @@ from scipy.stats import binom
 from scipy.stats import t as student
 
 import ballscrew as bs
-from ballscrew.evidence.service.temperature_trend import CHANCE, temperature_trend
+from ballscrew.evidence.service.diagnostics import CHANCE, temperature_trend
 from support.condition_series import SPEED
 from support.service_logs import OIL, RPM, SCREW
 

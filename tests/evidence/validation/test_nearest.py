@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.evidence.validation.entries import Conditions
 
 # the ratios as they are stored; near_rows gives a few of them
-from ballscrew.evidence.validation.nearest import _ratios, near_rows
+from ballscrew.evidence.validation.entries import Conditions, _ratios, near_rows
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel

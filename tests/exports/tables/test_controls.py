@@ -15,9 +15,9 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.exports import requests
+from ballscrew.exports import hand_over
+from ballscrew.exports.export import target
 from ballscrew.exports.tables.curves import beckhoff, drive, friction_curve, linuxcnc
-from ballscrew.exports.targets import target
 from ballscrew.questions.hand_over import document
 
 RANGES = {"axial_load": (-3000.0, 3000.0), "screw_speed": (-100.0, 100.0)}
@@ -188,7 +188,7 @@ def test_a_load_beyond_the_range_is_refused(handed_over):
 def test_the_load_is_that_of_the_case(example):
     case = case_file.load(example, ["operation.axial_load=800 N"])
     assert [target(to).options_of_case(case) for to in ("drive", "beckhoff", "linuxcnc")] == [{"load": 800.0}] * 3
-    export = requests.of_case(case, "drive", requests.Request(ranges=["axial_load=-1:1 kN"]))
+    export = hand_over.of_case(case, "drive", hand_over.Request(ranges=["axial_load=-1:1 kN"]))
     assert export.valid_range["axial_load"] == (800.0, 800.0)
 
 

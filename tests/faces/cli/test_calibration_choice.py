@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, descriptions, fitted_case
 from ballscrew.cases.schema.case_schema import json_schema
-from ballscrew.evidence.validation.nearest import near_rows
+from ballscrew.evidence.validation.entries import near_rows
 from ballscrew.faces.cli.main import app
 from ballscrew.faces.report import contents
 from ballscrew.faces.web import documents

@@ -9,7 +9,7 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.case_files import case_file, oil_library
+from ballscrew.cases.case_files import case_file, lubricants
 from ballscrew.physics.laws.nut_losses import Seals
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.sweep import compute
@@ -83,13 +83,13 @@ def test_a_law_without_its_section(setting, said):
 
 
 def test_the_consistency_of_a_grease():
-    known = oil_library.oils()
+    known = lubricants.oils()
     of_class_2 = [sheet.name for sheet in known.values() if "2" in sheet.nlgi.split("-")]
-    assert [sheet.name for sheet in oil_library.chosen(known, "NLGI 2")] == of_class_2
-    assert [sheet.name for sheet in oil_library.chosen(known, "arcanol nlgi-2")] == [
+    assert [sheet.name for sheet in lubricants.chosen(known, "NLGI 2")] == of_class_2
+    assert [sheet.name for sheet in lubricants.chosen(known, "arcanol nlgi-2")] == [
         n for n in of_class_2 if "Arcanol" in n
     ]
-    assert {s.nlgi for s in oil_library.chosen(known, "NLGI 3")} == {"2-3", "3", "3-4"}
+    assert {s.nlgi for s in lubricants.chosen(known, "NLGI 3")} == {"2-3", "3", "3-4"}
     assert 'consistency of a grease, and friction follows its base oil: see "ballscrew oils list NLGI 2"' in refused(
         'lubricant.grade="NLGI 2"'
     )

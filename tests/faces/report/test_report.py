@@ -27,17 +27,14 @@ from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.references import bibliography as entries
 from ballscrew.basis.units import DIGITS
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.makers_rules import by_rules
-from ballscrew.cases.case_files.named_calibration import vendor_rows_like
+from ballscrew.cases.case_files.named_calibration import by_rules, vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.cli import sharing
 from ballscrew.faces.report import contents, curve_figures, input_tables
+from ballscrew.faces.report.contents import Heading
 from ballscrew.faces.report.curves import curves
-from ballscrew.faces.report.files import report_bytes
-from ballscrew.faces.report.heading import Heading
-from ballscrew.faces.report.html import html_bytes
 from ballscrew.faces.report.options import ReportOptions
-from ballscrew.faces.report.pdf import pdf_bytes
+from ballscrew.faces.report.pdf import html_bytes, pdf_bytes, report_bytes
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.nut_losses import ConstantTorque
 from ballscrew.questions.axis.answer import SERIES, chain_of

@@ -10,7 +10,7 @@ pytest.importorskip("fastapi", reason="fastapi is not installed (the extra web)"
 import uvicorn
 
 from ballscrew.faces.web import connections, server
-from ballscrew.faces.web.guard import HEADERS
+from ballscrew.faces.web.limits import HEADERS
 
 HEAD = b"%s /api/v1/run HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
 #: Headers that every response has.

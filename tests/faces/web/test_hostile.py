@@ -16,7 +16,7 @@ import pytest
 
 from ballscrew.faces.web import limits
 from ballscrew.faces.web.connections import LONGEST_HEAD
-from ballscrew.faces.web.guard import HEADERS
+from ballscrew.faces.web.limits import HEADERS
 from support.short_timeouts import READ_TIMEOUT
 
 from .conftest import ROOT

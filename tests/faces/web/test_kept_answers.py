@@ -3,7 +3,7 @@
 import pytest
 
 from ballscrew.faces.web import api, server
-from ballscrew.faces.web.kept_answers import KeptAnswers, Question
+from ballscrew.faces.web.documents import KeptAnswers, Question
 
 testclient = pytest.importorskip("starlette.testclient", reason="needs httpx, of the extra test")
 

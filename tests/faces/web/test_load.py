@@ -12,7 +12,7 @@ import pytest
 from pypdf import PdfReader
 
 from ballscrew.faces.report.pdf import pdf_bytes
-from ballscrew.faces.web import memory
+from ballscrew.faces.web import limits
 from ballscrew.questions.shared.report_blocks import Report
 
 pytestmark = pytest.mark.slow
@@ -60,9 +60,9 @@ def test_memory_of_heavy_work_is_given_back():
     def resident():
         return psutil.Process().memory_info().rss / 2**20
 
-    memory.releasing(lambda _: None)(0)  # what earlier tests left free would be used again
+    limits.releasing(lambda _: None)(0)  # what earlier tests left free would be used again
     before = resident()
-    largest = memory.releasing(work)(150_000)
+    largest = limits.releasing(work)(150_000)
     assert largest - before > 100
     assert resident() - before < 0.3 * (largest - before)
 
@@ -87,10 +87,10 @@ def test_memory_after_a_thousand_reports(start, serve):
 def test_memory_stays(server, serve):
     """What is loaded once comes in the first seconds."""
     serve.mixed(server.process, server.address, 8)
-    memory, wrong, counts = serve.mixed(server.process, server.address, 15, every=3)
+    limits, wrong, counts = serve.mixed(server.process, server.address, 15, every=3)
     assert not wrong
     assert min(counts[path] for path in ("run", "sweep", "drawing", "compare", "band")) > 3
-    assert memory[-1][1] - memory[0][1] < 15
+    assert limits[-1][1] - limits[0][1] < 15
 
 
 def test_what_is_kept_is_bounded():

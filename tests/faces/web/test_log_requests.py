@@ -178,7 +178,7 @@ def test_hand_over(post, folders, tmp_path, target, name):
 
 def test_targets(client, post):
     """All that the command knows, with their choices; what a target lacks is said, and no target is refused at 500."""
-    from ballscrew.exports.targets import TARGETS
+    from ballscrew.exports.export import TARGETS
 
     found = client("GET", "/api/v1/targets").json()["targets"]
     assert [one["name"] for one in found] == [*TARGETS]

@@ -14,7 +14,7 @@ from schemathesis.specs.openapi.definitions import OPENAPI_31
 
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.schema.case_schema import json_schema
-from ballscrew.faces.web import memory, problems
+from ballscrew.faces.web import limits, problems
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.faces.web.server import (
     application,
@@ -65,7 +65,7 @@ def loaded():
 
     Here that is what all tests of the worker before have left, too: a tenth of a second a time.
     """
-    memory.keep_loaded()
+    limits.keep_loaded()
 
 
 @pytest.fixture(scope="module", autouse=True)

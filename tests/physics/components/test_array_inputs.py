@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.solvers.pure_rolling import curvature_slip
+from ballscrew.physics.solvers.slip import curvature_slip
 
 NAMES = ("efficiency", "back_driving_efficiency", "friction_power", "contributions", "dissipation", "drive_torque")
 SIDES = ("maximum_pressure", "mutual_approach", "semi_minor_axis", "elastic_regime_parameter", "traction_limit")

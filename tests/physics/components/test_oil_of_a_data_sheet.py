@@ -11,7 +11,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.physics.components.materials import grades
-from ballscrew.physics.friction.plausibility import beyond_data_sheet
+from ballscrew.physics.friction.validity import beyond_data_sheet
 
 SHEET = {"kinematic_viscosity_40": 100e-6, "kinematic_viscosity_100": 11.1e-6, "density_15": 880.0}
 OIL = bs.Lubricant.from_data_sheet(**SHEET, temperature=313.15)

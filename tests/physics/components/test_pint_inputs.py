@@ -13,11 +13,9 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.axis.duty_cycle.screw_friction import ConstantEfficiency
-from ballscrew.axis.supports.bearing import SupportBearing
-from ballscrew.axis.supports.carriage_loads import CarriedMass, GuidedTable
-from ballscrew.axis.supports.guide import LinearGuide
+from ballscrew.axis.supports.bearing import MountedBearing, SupportBearing
+from ballscrew.axis.supports.guide import CarriedMass, GuidedTable, LinearGuide
 from ballscrew.axis.supports.makers_bearing import KnownBearing, PalmgrenBearing, SKFBearing, SKFConstants
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.basis.quantities import fields_of
 from ballscrew.engine.uncertainty.bands import band_along
 from ballscrew.physics.components.nut import Scatter

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear, nnls
 
-from ballscrew.physics.moving_balls.chain_step import Driven, compiled_pushed_balls, pushed_balls
+from ballscrew.physics.moving_balls.chain import Driven, compiled_pushed_balls, pushed_balls
 
 #: Chains of random balls.
 SEEDS = range(100)

@@ -16,7 +16,7 @@ from ballscrew.physics.sizing import own_nut, table_balls
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.sizing.table_balls import BY_TABLE, with_table_balls
-from ballscrew.physics.solvers.rated_ball import ball_of_rating
+from ballscrew.physics.solvers.swelling import ball_of_rating
 from ballscrew.questions.validate.compute import shipped_rows
 from support.rules import for_each
 

@@ -11,8 +11,8 @@ import pytest
 import ballscrew as bs
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import equilibrium, friction
-from ballscrew.physics.laws.balance import Resistances
-from ballscrew.physics.solvers import pure_rolling
+from ballscrew.physics.laws.torque import Resistances
+from ballscrew.physics.solvers import slip
 from ballscrew.physics.solvers.slip import BallProblem
 
 CORRECTED = bs.FrictionModel.corrected()
@@ -45,7 +45,7 @@ class Outcome(NamedTuple):
 
 
 def outcome(r):
-    found = pure_rolling.solve(r.screw, r.nut, *without_curvature(r), r.ball_screw.ball_diameter)
+    found = slip.solve(r.screw, r.nut, *without_curvature(r), r.ball_screw.ball_diameter)
     moments = (side.curvature_moment_at(offset) for side, offset in zip((r.screw, r.nut), found[:2], strict=True))
     return Outcome(*found, *moments)
 
@@ -136,11 +136,11 @@ def moments_by_bisection(r):
 
 def test_converges_everywhere(anywhere):
     """A fixed number of steps is enough for every contact that fits its groove."""
-    found = pure_rolling.curvature_slip(ball_problem(anywhere))
+    found = slip.curvature_slip(ball_problem(anywhere))
     assert np.all(found.converged)
-    assert found.tolerance == pure_rolling.TOLERANCE
-    assert np.max(found.residual) <= pure_rolling.TOLERANCE
-    assert np.max(outcome(anywhere).residual) <= pure_rolling.TOLERANCE
+    assert found.tolerance == slip.TOLERANCE
+    assert np.max(found.residual) <= slip.TOLERANCE
+    assert np.max(outcome(anywhere).residual) <= slip.TOLERANCE
     assert np.all(anywhere.converged)
     assert np.all(anywhere.validity["equilibrium"])
 
@@ -148,7 +148,7 @@ def test_converges_everywhere(anywhere):
 @pytest.mark.slow
 def test_more_steps_change_nothing(anywhere, monkeypatch):
     few = outcome(anywhere)
-    monkeypatch.setattr(pure_rolling, "NEWTON_STEPS", 3 * pure_rolling.NEWTON_STEPS)
+    monkeypatch.setattr(slip, "NEWTON_STEPS", 3 * slip.NEWTON_STEPS)
     many = outcome(anywhere)
     scale = np.abs(many.screw_moment) + np.abs(many.nut_moment)
     assert np.all(np.abs(few.screw_moment - many.screw_moment) <= 1e-12 * scale)
@@ -237,7 +237,7 @@ def test_without_load_the_moments_vanish(seed_screw, seed_oil):
 
 def test_imposed_offset_is_taken_as_it_is(seed_screw, seed_oil):
     r = CORRECTED(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
-    given = pure_rolling.curvature_slip(ball_problem(r, 0.34))
+    given = slip.curvature_slip(ball_problem(r, 0.34))
     assert given.screw.pure_rolling_offset == given.nut.pure_rolling_offset == 0.34
     assert given.screw.curvature_moment == r.screw.curvature_moment_at(0.34)
     assert given.nut.curvature_moment == r.nut.curvature_moment_at(0.34)
@@ -258,13 +258,13 @@ def test_what_does_not_converge_says_so(seed_screw, seed_oil):
     assert not np.any(r.valid[open_])
     assert any(warning.startswith("equilibrium:") for warning in r.warnings)
     assert np.all(np.isfinite(r.screw_torque))
-    assert "conformity" in pure_rolling.curvature_slip(ball_problem(r)).advice
+    assert "conformity" in slip.curvature_slip(ball_problem(r)).advice
 
 
 def test_curvature_alone_neither_spins_nor_creeps(seed_screw, seed_oil):
     """The paper's slip law hands nothing through the ball but forces along the path, and never skids."""
     r = CORRECTED(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
-    found = pure_rolling.curvature_slip(ball_problem(r))
+    found = slip.curvature_slip(ball_problem(r))
     assert found.spin_moment == found.lateral_force == 0
     assert found.rolling_share == r.rolling_share == 1
     for side in (found.screw, found.nut, r.screw, r.nut):

@@ -11,9 +11,10 @@ from ballscrew.basis.output.sheet import Chart, Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.shared import declared
 from ballscrew.questions.warm_up import compute, verdicts
-from ballscrew.questions.warm_up.answer import BesideWarmUp, WarmUpResults, document, with_self_heating
+from ballscrew.questions.warm_up.answer import BesideWarmUp, WarmUpResults, document
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, load, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
+from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet
 from support.answers import undescribed, without_unit
 from support.commands import ROOT

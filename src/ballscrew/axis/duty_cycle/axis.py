@@ -10,8 +10,7 @@ from typing import Annotated, Any, NamedTuple, Protocol
 import numpy as np
 
 from ballscrew.axis.motion.states import MotionStates, Numbers
-from ballscrew.axis.supports.carriage_loads import GuidedTable
-from ballscrew.axis.supports.guide import GUIDES, SEALS
+from ballscrew.axis.supports.guide import GUIDES, SEALS, GuidedTable
 from ballscrew.basis.arrays import ByValue, compact
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any
 from ballscrew.basis.quantities import (

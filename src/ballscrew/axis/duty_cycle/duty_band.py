@@ -12,15 +12,15 @@ import numpy as np
 from ballscrew.axis.duty_cycle.duty import PROCESS, STORED, Duty
 from ballscrew.axis.duty_cycle.screw_friction import WORTH_RECORDING, ModelledScrew
 from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.supports.bearing import PLACES
 from ballscrew.axis.supports.element_laws import UNCERTAIN
-from ballscrew.axis.supports.mounted_bearing import PLACES
 from ballscrew.basis.errors import Fault, InputError, raise_if_any, renamed_keyword
 from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
 from ballscrew.engine.uncertainty.bands import Interval
 from ballscrew.engine.uncertainty.distributions import Distribution
-from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence
+from ballscrew.engine.uncertainty.monte_carlo import Sampler, sobol_sequence
 
 SAMPLES = 2**12
 #: Operating points that are evaluated at a time.

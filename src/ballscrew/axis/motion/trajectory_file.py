@@ -15,7 +15,7 @@ from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import Column, checked, headings_in, unused
 from ballscrew.files.tables.sheets import unreadable
 from ballscrew.files.torque_logs.columns import WITHIN, Layout
-from ballscrew.files.torque_logs.numbers import NumberReader
+from ballscrew.files.torque_logs.reading import NumberReader
 from ballscrew.files.torque_logs.sources import source_of
 
 #: Rows that are read at a time, and rows at most.

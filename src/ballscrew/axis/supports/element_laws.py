@@ -7,12 +7,9 @@ import reprlib
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.axis.supports.bearing import SupportBearing
-from ballscrew.axis.supports.carriage_loads import CarriedMass, GuidedTable
-from ballscrew.axis.supports.contact_guide import ContactGuide
-from ballscrew.axis.supports.guide import LinearGuide
+from ballscrew.axis.supports.bearing import MountedBearing, SupportBearing
+from ballscrew.axis.supports.guide import CarriedMass, ContactGuide, GuidedTable, LinearGuide
 from ballscrew.axis.supports.makers_bearing import KnownBearing, PalmgrenBearing, SKFBearing
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.basis.errors import MISSING, Fault
 from ballscrew.basis.quantities import Quantity, fields_of
 

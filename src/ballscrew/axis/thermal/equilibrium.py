@@ -8,10 +8,13 @@ import math
 import numpy as np
 from scipy.optimize import root_scalar
 
+from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.motion.states import Numbers
-from ballscrew.axis.thermal.network import Network
+from ballscrew.axis.thermal.network import Network, network_of
+from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import accepts_units
 from ballscrew.basis.quantities import Length, Power, Ratio
 
 #: Points of the powers among which an equilibrium is looked for.
@@ -92,3 +95,20 @@ def equilibrium(network: Network) -> Equilibrium:
     friction = values[here] + powers[here]
     margin = float(np.max(-values[here] / np.maximum(friction, 1e-12))) if here.any() else -1.0
     return Equilibrium(network, False, min(margin, 0.0), math.nan, np.full(network.size, np.nan))
+
+
+@accepts_units("steady_heat")
+def steady_heat(
+    duty: Duty, surroundings: Surroundings | None = None, *, shaft_length: Length | None = None
+) -> Equilibrium:
+    """Temperatures, preload, friction and growth in which a duty ends, and the stability margin of the thermal loop.
+
+    Returns an :class:`~ballscrew.axis.thermal.equilibrium.Equilibrium` of ``duty`` in its ``surroundings``, by default
+    ``Surroundings()``. Of one operating point take the duty of
+    :func:`~ballscrew.axis.duty_cycle.to_and_fro.to_and_fro`. ``shaft_length`` (m) is taken where the surroundings have
+    none.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` as
+    :func:`~ballscrew.axis.thermal.network.network_of` does.
+    """
+    return equilibrium(network_of(duty, surroundings or Surroundings(), shaft_length=shaft_length))

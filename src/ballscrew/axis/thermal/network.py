@@ -12,7 +12,7 @@ import numpy as np
 
 from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.motion.states import Numbers
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.thermal import surroundings as air
 from ballscrew.axis.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map
 from ballscrew.axis.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft

@@ -50,7 +50,7 @@ def warm_sweep(
     """:func:`~ballscrew.engine.sweeps.sweep.sweep` with each point in its own steady state.
 
     ``model``, ``screw``, ``lubricant``, ``outputs`` and ``varied`` are those of a sweep. Each point goes to and fro
-    over the ``stroke`` (m) under its load until it is warm (:func:`~ballscrew.axis.thermal.steady_heat.steady_heat`) in
+    over the ``stroke`` (m) under its load until it is warm (:func:`~ballscrew.axis.thermal.equilibrium.steady_heat`) in
     its ``surroundings``, with what rubs on the shaft besides (``also``). ``shaft_length`` (m) is taken where the
     surroundings have none. Its results are those of the oil and the preload then; one without a steady state has none,
     and is not valid. ``done(finished, total)`` is told the points. The dataset that is returned has :data:`HEAT` beside

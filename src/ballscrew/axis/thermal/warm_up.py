@@ -15,8 +15,7 @@ from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium
 from ballscrew.axis.thermal.friction_map import friction_map
-from ballscrew.axis.thermal.marching import Slot, marched
-from ballscrew.axis.thermal.moving_source import Itinerary, is_long, itinerary_of
+from ballscrew.axis.thermal.moving_source import Itinerary, Slot, is_long, itinerary_of, marched
 from ballscrew.axis.thermal.network import Network, network_of
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units

@@ -13,8 +13,7 @@ from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.duty_cycle.screw_friction import WORTH_RECORDING
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium
-from ballscrew.axis.thermal.marching import Piece, Slot, marched
-from ballscrew.axis.thermal.moving_source import Itinerary
+from ballscrew.axis.thermal.moving_source import Itinerary, Piece, Slot, marched
 from ballscrew.axis.thermal.network import FrictionFactor, Network
 from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
 from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
@@ -27,7 +26,7 @@ from ballscrew.engine.uncertainty.band_evaluation import faults_of_inputs, fault
 from ballscrew.engine.uncertainty.bands import Interval
 from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
 from ballscrew.engine.uncertainty.distributions import Distribution, allowed
-from ballscrew.engine.uncertainty.sampling import JointNormal, Sampler, sobol_sequence
+from ballscrew.engine.uncertainty.monte_carlo import JointNormal, Sampler, sobol_sequence
 
 #: Samples where none are asked for, and of heat that goes along with the nut, which takes longer.
 SAMPLES, SAMPLES_ALONG = 512, 64

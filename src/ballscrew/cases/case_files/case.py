@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import Motion, Segments
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
@@ -28,7 +28,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations.shaft import shaft_inertia
 from ballscrew.physics.friction.calibrations import Calibration
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
+from ballscrew.physics.friction.validity import IMPLAUSIBLE, implausible, named_parts
 from ballscrew.physics.laws.friction import FRESH_BOUNDARY_FRICTION
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow, is_shipped

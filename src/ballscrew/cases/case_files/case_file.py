@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.thermal.written_bands import written_bands
 from ballscrew.basis import units
 from ballscrew.basis.errors import UNKNOWN, Fault, InputError, closest, nearest
@@ -22,9 +22,9 @@ from ballscrew.cases.case_files import case_text, duty_tables, nut_tables, proje
 from ballscrew.cases.case_files.case import USUAL_LIMITS
 from ballscrew.cases.case_files.case import Case as Case
 from ballscrew.cases.case_files.inputs import inputs as inputs
+from ballscrew.cases.case_files.inputs import references as references
 from ballscrew.cases.case_files.lubricants import lubricant_of
 from ballscrew.cases.case_files.named_calibration import calibrated_by_table, of_make, with_calibration
-from ballscrew.cases.case_files.provenance import references as references
 from ballscrew.cases.case_files.spelling import doubtful
 from ballscrew.cases.schema.case_schema import (
     DEFAULT_MODEL,
@@ -35,16 +35,14 @@ from ballscrew.cases.schema.case_schema import (
     name_of_law,
     places_of,
 )
-from ballscrew.cases.schema.duty_schema import DUTY_TABLES
+from ballscrew.cases.schema.duty_schema import DUTY_TABLES, SUPPORT_TABLES
 from ballscrew.cases.schema.fields import NutSpeed, is_nut_speed
-from ballscrew.cases.schema.option_faults import in_options
+from ballscrew.cases.schema.law_import import in_options
 from ballscrew.cases.schema.sections import Sections, validated_sections
-from ballscrew.cases.schema.support_schema import SUPPORT_TABLES
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES
 from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.components.ratings import rating_of
-from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.components.screw import MATERIALS, BallScrew, rating_of
 from ballscrew.physics.friction.calibrations import calibration as named_calibration
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel

@@ -16,10 +16,10 @@ from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.inputs import of_case, references
 from ballscrew.cases.case_files.lubricants import OF_NAMED_OIL
 from ballscrew.cases.case_files.named_calibration import written_out
-from ballscrew.cases.case_files.named_files import moved
-from ballscrew.cases.case_files.provenance import of_case, references
+from ballscrew.cases.case_files.opened_file import moved
 from ballscrew.engine.uncertainty.distributions import normal_half_width
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.fit import CONSTANT_LOSS

@@ -6,12 +6,15 @@ import dataclasses
 from typing import Any
 
 from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.references import citations_of, documentation, keys_in
+from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import duty_tables, support_tables
 from ballscrew.cases.case_files.case import USUAL_LIMITS, Case
 from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.schema.case_schema import LAWS, name_of_law
 from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, kind_of
+from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.screw import MATERIALS
 from ballscrew.physics.sizing.installation import Installation
@@ -83,3 +86,19 @@ def _law(slot: str, law: Any) -> str | dict[str, Any]:
 
 def _numbers(part: Any) -> dict[str, Any]:
     return {name: getattr(part, name) for name in fields_of(type(part))}
+
+
+def of_case(case: Case) -> dict[str, Any]:
+    """Version, model and sources of a case."""
+    label = case.model.label if case.efficiency is None else CONSTANT_EFFICIENCY
+    return {"version": __version__, "model": label, "references": references(case)}
+
+
+def references(case: Case) -> list[str]:
+    """Keys of the sources of the model, and of the oil where it was made from a grade."""
+    made_by = Lubricant.from_grade if "grade" in case.oil else Lubricant.from_data_sheet
+    of_oil = keys_in(documentation(made_by)) if case.oil else ()
+    losses = {} if case.nut is None else case.nut.losses
+    of_nut = [key for law in losses.values() for key in keys_in(documentation(type(law)))]
+    of_model = citations_of(case.model) if case.efficiency is None else ()
+    return list(dict.fromkeys([*of_model, *of_oil, *of_nut]))

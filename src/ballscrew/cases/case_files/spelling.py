@@ -18,7 +18,7 @@ from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import Quantity, within_bounds
 from ballscrew.basis.records import Record
 from ballscrew.cases.schema.case_schema import sections
-from ballscrew.physics.components.ratings import PRELOAD_SHARES
+from ballscrew.physics.components.screw import PRELOAD_SHARES
 
 #: The id of the warning.
 THOUSANDS = "inputs.thousands"

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.supports.carriage_loads import CarriedMass, GuidedTable
+from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
 from ballscrew.axis.supports.element_laws import (
     BEARING_LAWS,
@@ -21,12 +21,12 @@ from ballscrew.axis.supports.element_laws import (
     missing,
     numbers_of,
 )
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.guide import CarriedMass, GuidedTable
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, shown
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.case_files.oil_library import named_oil
+from ballscrew.cases.case_files.lubricants import named_oil
+from ballscrew.cases.schema.duty_schema import OIL
 from ballscrew.cases.schema.sections import Sections
-from ballscrew.cases.schema.support_schema import OIL
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, parse_uncertain
 from ballscrew.physics.components.materials import Lubricant

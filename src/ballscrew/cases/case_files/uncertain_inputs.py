@@ -24,7 +24,7 @@ from ballscrew.physics.friction.calibrations import Calibration
 from ballscrew.physics.friction.model import FrictionModel
 
 if TYPE_CHECKING:
-    from ballscrew.engine.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
 #: The source of what stands in the case file.
 GIVEN = "given"
@@ -85,7 +85,7 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
     :class:`~ballscrew.basis.errors.InputError` for a table ``[calibration]`` that is not as a fit writes it.
     """
     # loads xarray: only where inputs are sampled
-    from ballscrew.engine.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
     if case.fit:
         faults: list[Fault] = []
@@ -111,7 +111,7 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
 def _joint_of_fit(table: Any, known: Mapping[str, Any], faults: list[Fault]) -> JointNormal | None:
     """The correlated numbers of ``[calibration]``; errors in it are added to ``faults``."""
     # loads xarray: only where inputs are sampled
-    from ballscrew.engine.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
     try:
         names = tuple(table["numbers"])

@@ -20,11 +20,17 @@ from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.basis.errors import MISSING, UNKNOWN, Fault, InputError, closest, nearest, to_set
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
+from ballscrew.cases.schema.duty_schema import (
+    CONSTANT_EFFICIENCY,
+    DUTY_TABLES,
+    SUPPORT_TABLES,
+    duty_sections,
+    efficiency_field,
+    support_sections,
+)
 from ballscrew.cases.schema.fields import EXAMPLES as EXAMPLES
 from ballscrew.cases.schema.fields import NUT_SPEED, defaults_of, json_of, read_preload, read_speed, section_of
 from ballscrew.cases.schema.law_import import OUTSIDE, law_from_outside, with_plain_numbers
-from ballscrew.cases.schema.support_schema import SUPPORT_TABLES, support_sections
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades

@@ -8,8 +8,7 @@ from typing import Any
 
 from ballscrew.basis.errors import Fault
 from ballscrew.cases.schema.case_schema import NUT_TABLES, validated
-from ballscrew.cases.schema.duty_schema import DUTY_TABLES
-from ballscrew.cases.schema.support_schema import SUPPORT_TABLES
+from ballscrew.cases.schema.duty_schema import DUTY_TABLES, SUPPORT_TABLES
 
 #: The sections with a schema, in the order of messages.
 _VALIDATED = ("screw", "lubricant", "operation", "model", *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES)

@@ -16,10 +16,12 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Info, Length, Quantity, Temperature, Torque, fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.opened_file import moved
 from ballscrew.cases.schema.case_schema import read_table, sections, without_null
 from ballscrew.cases.schema.fields import section_of
 from ballscrew.physics.components.materials import TEMPERATURE
@@ -286,3 +288,29 @@ def log_rows(card: TorqueCard) -> list[dict[str, float]]:
         for point in card.points
         for direction, torque in point.signed_readings.items()
     ]
+
+
+_HEADINGS = ("speed [rpm]", "axial load [N]", "torque [N m]", "temperature [degC]")
+
+
+def write(card: TorqueCard, folder: Path, log: Path, case: Path) -> None:
+    """Write the log and the case file of a card from a folder."""
+    import tomlkit
+
+    tables = moved(case_tables(card.tables), folder, case.parent)
+    head = f"# Of the torque card {card.name}: {card.title}\n"
+    with atomic_write("--case", case) as path:
+        path.write_text(f"{head}\n{tomlkit.dumps(tables)}", encoding="utf-8")
+    speed, torque = (fields_of(TorquePoint)[name] for name in ("screw_speed", "torque_forward"))
+    lines = [",".join(_HEADINGS)]
+    for row in log_rows(card):
+        temperature = row["temperature"]
+        cells = (
+            units.from_si(row["screw_speed"], speed),
+            row["axial_load"],
+            units.from_si(row["torque"], torque),
+            "" if math.isnan(temperature) else units.from_si(temperature, TEMPERATURE),
+        )
+        lines.append(",".join(cell if isinstance(cell, str) else f"{cell:.9g}" for cell in cells))
+    with atomic_write("--to", log) as path:
+        path.write_text(head + "\n".join(lines) + "\n", encoding="utf-8")

@@ -12,15 +12,93 @@ from __future__ import annotations
 
 import dataclasses
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from ballscrew.compiler.kernels import elementary, pieces
+from ballscrew.compiler.kernels import elementary
 from ballscrew.compiler.kernels.ir import Value, Writer, constant
 from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.steps import Operand, Step, choose
+
+#: Steps of a piece: of four thousand, a compiler needs a tenth of the time for each that it needs of forty thousand.
+STEPS = 3000
+
+#: Emits the steps of a program: writer, program and the values of its inputs; returns values by their number.
+Emit = Callable[[Writer, Program, dict[int, Value]], Mapping[int, Value]]
+
+
+@dataclasses.dataclass(frozen=True)
+class Pieces:
+    """The functions of the pieces as text, and where each value has its place in the table."""
+
+    functions: str
+    count: int
+    places: Mapping[int, int]
+
+    def write(self, w: Writer, inputs: Mapping[int, Value], wanted: Iterable[int]) -> dict[int, Value]:
+        """Emit the stores of the inputs, the calls of the pieces, and the loads of what is wanted."""
+        for i, value in inputs.items():
+            if i in self.places:
+                _store(w, self.places[i], value)
+        for k in range(self.count):
+            w.lines.append(f"  call void @piece{k}(ptr %table)")
+        return {i: _load(w, self.places[i]) for i in dict.fromkeys(wanted)}
+
+    def table(self, w: Writer) -> list[str]:
+        """The room for the table."""
+        return [f"  %table = alloca [{max(len(self.places), 1)} x {w.doubles}], align 64"]
+
+
+def pieces_of(program: Program, lanes: int, emit: Emit) -> Pieces:
+    """A program in pieces of :data:`STEPS` steps."""
+    chunks = [program.steps[k : k + STEPS] for k in range(0, len(program.steps), STEPS)]
+    places = _places(program, chunks)
+    texts = [_function(program, k, chunk, places, lanes, emit) for k, chunk in enumerate(chunks)]
+    return Pieces("\n".join(texts), len(chunks), places)
+
+
+def _places(program: Program, chunks: list[tuple[tuple[int, Step], ...]]) -> dict[int, int]:
+    """A place for each step that a piece reads from before it, and for each output; a truth is a number."""
+    crossing = set(program.outputs.values())
+    for chunk in chunks:
+        here = {i for i, _ in chunk}
+        crossing |= {o for _, step in chunk for o in step.read if o not in here}
+    return {i: place for place, i in enumerate(sorted(crossing))}
+
+
+def _function(
+    program: Program,
+    number: int,
+    chunk: tuple[tuple[int, Step], ...],
+    places: Mapping[int, int],
+    lanes: int,
+    emit: Emit,
+) -> str:
+    w = Writer(lanes)
+    here = {i for i, _ in chunk}
+    read = dict.fromkeys(o for _, step in chunk for o in step.read if o not in here)
+    result = emit(w, dataclasses.replace(program, steps=chunk), {i: _load(w, places[i]) for i in read})
+    for i, step in chunk:
+        if i in places:
+            value = result[i]
+            if step.is_mask:
+                value = w.instruction(f"uitofp {w.masks} {value} to {w.doubles}")
+            _store(w, places[i], value)
+    body = "\n".join([*w.lines, "  ret void"])
+    return f"define internal void @piece{number}(ptr noalias %table) noinline {{\n{body}\n}}\n"
+
+
+def _load(w: Writer, place: int) -> Value:
+    address = w.instruction(f"getelementptr {w.doubles}, ptr %table, i64 {place}")
+    return w.instruction(f"load {w.doubles}, ptr {address}, align 16")
+
+
+def _store(w: Writer, place: int, value: Value) -> None:
+    address = w.instruction(f"getelementptr {w.doubles}, ptr %table, i64 {place}")
+    w.lines.append(f"  store {w.doubles} {value}, ptr {address}, align 16")
+
 
 #: Lanes of a vector, for programs of at most so many steps: a short program waits for its longest chain of
 #: operations, and many lanes keep the machine busy meanwhile; a long one runs out of registers and takes long to
@@ -80,13 +158,13 @@ def kernel_text(
     read twice to be checked: for each input over points :data:`ENDS_OF_EACH` vectors of integers, the least and the
     greatest bits by lane over all whole vectors. Outputs that are ``reduced``, by ``numpy.sum`` or ``numpy.max`` over
     the rows, have a place for each column, and room for a vector more. A long program ``in_pieces`` is sooner compiled
-    (:mod:`ballscrew.compiler.kernels.pieces`). Raises :class:`UnknownOperationError`.
+    (:mod:`ballscrew.compiler.kernels.emission`). Raises :class:`UnknownOperationError`.
     """
     w = Writer(lanes or lanes_for(program))
     seen = [i for i, source in enumerate(sources) if source == "points"] if watched else []
     values = dict(enumerate(_emit_loops_and_loads(w, sources, seen)))
-    is_long = in_pieces and len(program.steps) > pieces.STEPS
-    parts = pieces.pieces_of(program, w.lanes, _steps) if is_long else None
+    is_long = in_pieces and len(program.steps) > STEPS
+    parts = pieces_of(program, w.lanes, _steps) if is_long else None
     if parts is not None:
         values, program = parts.write(w, values, program.outputs.values()), dataclasses.replace(program, steps=())
     emitter = StepEmitter(w, program, values)

@@ -10,7 +10,7 @@ up, so that x²/x is x, also where x is zero.
 Inputs may come in groups (the axes of a grid). A product of powers then becomes one factor for each
 group, so that a factor can be computed once for each value of its axis. On a tape that ``reduces``, the last axis of
 an array stands for the rows of a grid, and sums and greatest values along it are steps as well
-(:mod:`ballscrew.compiler.tracing.reductions`).
+(:mod:`ballscrew.compiler.tracing.merging`).
 """
 
 from __future__ import annotations
@@ -21,11 +21,25 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.compiler.tracing.cannot_record import CannotRecordError as CannotRecordError
-from ballscrew.compiler.tracing.cannot_record import NoAttributeError
-from ballscrew.compiler.tracing.cannot_record import why_not_recorded as why_not_recorded
 from ballscrew.compiler.tracing.logarithms import folds_into_exponent, logarithm, sum_of_logarithms
 from ballscrew.compiler.tracing.steps import COLUMNS, REDUCED, REDUCTIONS, ROWS, Step, choose
+
+
+class CannotRecordError(TypeError):
+    """Asked of a traced value: what only numbers or plain arrays can do."""
+
+
+class NoAttributeError(CannotRecordError, AttributeError):
+    """Asked of a traced value: a method or an attribute of plain arrays."""
+
+
+def why_not_recorded(error: BaseException) -> CannotRecordError | None:
+    """Cause of an error that is an operation that cannot be recorded."""
+    below: BaseException | None = error
+    while below is not None and not isinstance(below, CannotRecordError):
+        below = below.__cause__ or below.__context__
+    return below
+
 
 #: Whole powers up to this one are multiplied out.
 HIGHEST_WHOLE_POWER = 8

@@ -2,7 +2,7 @@
 
 The recording has two levels: what each operating point has, and what each of its balls has, whose loads and contact
 angles are inputs like any other. Sums and greatest values over the balls lead from the second to the first
-(:mod:`ballscrew.compiler.tracing.reductions`). The program is cut there, and its first part along points and balls:
+(:mod:`ballscrew.compiler.tracing.merging`). The program is cut there, and its first part along points and balls:
 what does not depend on the ball is evaluated once for each point, by NumPy, and what does in one loop over balls and
 points.
 
@@ -26,25 +26,30 @@ from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
 from ballscrew.compiler.kernels.kernel import Kernel, available, code_of
 from ballscrew.compiler.tracing.grid import Split, split
+from ballscrew.compiler.tracing.merging import Reduction, Stages, cut_at_reductions, reduced, sums_of
 from ballscrew.compiler.tracing.program import Program, Source, required_steps
-from ballscrew.compiler.tracing.reductions import Reduction, Stages, cut_at_reductions, reduced, sums_of
 from ballscrew.compiler.tracing.steps import REDUCTIONS
 from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.compiler.tracing.written import as_document, can_be_written, from_document
 from ballscrew.engine.evaluation.axes import ends
-from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, PAYS, Engine, why_numpy, worth_compiling
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
 from ballscrew.engine.evaluation.recordings import Recording, Structures
 from ballscrew.engine.evaluation.structure_kernels import MOST_STEPS_OPTIMISED, keep, kept, name_of
 from ballscrew.engine.evaluation.structures import (
+    ASKED_FOR,
+    KNOWN,
     OF_BALLS,
+    PAYS,
+    Engine,
     groups_by_ball,
     inputs_of_structure,
     numbers_alone,
     outputs_of_structure,
     recorded_structure,
     structure_key,
+    why_numpy,
+    worth_compiling,
 )
 from ballscrew.physics.friction.loaded_balls import loads_of
 

@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis import version
-from ballscrew.engine.evaluation.origins import library, name_in_library, origin
+from ballscrew.engine.evaluation.plan import library, name_in_library, origin
 
 #: Names by which code gets at what is not among its values: files, the environment, other code.
 _BEYOND_VALUES = frozenset({

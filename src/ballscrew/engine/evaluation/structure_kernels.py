@@ -29,12 +29,12 @@ from ballscrew.compiler.tracing.gradient import UnknownDerivativeError
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Interpreter, Program, Source
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
-from ballscrew.engine.evaluation.engines import ENOUGH_TO_COMPILE
 from ballscrew.engine.evaluation.fingerprint import recorder_digest, stands_as_imported
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.evaluation.recordings import Structures, is_as_imported
 from ballscrew.engine.evaluation.structures import (
+    ENOUGH_TO_COMPILE,
     OF_STATE,
     inputs_of_structure,
     numbers_alone,

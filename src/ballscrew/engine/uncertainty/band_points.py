@@ -12,9 +12,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew.engine.evaluation.comparison import Candidate
-from ballscrew.engine.evaluation.engines import SweepEngine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.structures import SweepEngine
 from ballscrew.engine.uncertainty.band_evaluation import (
     DERIVED_OUTPUTS,
     BandEvaluator,
@@ -27,7 +27,7 @@ from ballscrew.engine.uncertainty.band_evaluation import (
     tails,
 )
 from ballscrew.engine.uncertainty.distributions import Distribution, within
-from ballscrew.engine.uncertainty.sampling import Joint
+from ballscrew.engine.uncertainty.monte_carlo import Joint
 
 #: Samples of all points that are evaluated at a time: with twenty inputs they take about forty megabytes.
 _AT_A_TIME = 2**18

@@ -13,17 +13,138 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.displayed import LINES_OF_REPR, Displayed, shortened
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any, renamed_keyword
-from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.quantities import AngularSpeed, Force, Quantity
 from ballscrew.engine.evaluation.derivatives import JAX_INSTEAD, derivatives
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault
-from ballscrew.engine.uncertainty.morris import elementary_effects
-from ballscrew.engine.uncertainty.sampling import Sampler
-from ballscrew.engine.uncertainty.sobol import EXPLAINED, Estimate, sobol_indices
+from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault, within
+from ballscrew.engine.uncertainty.monte_carlo import Sampler, sobol_sequence
+from ballscrew.engine.uncertainty.sobol import EXPLAINED, Estimate, Function, finite, resampled_means, sobol_indices
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
+
+#: The levels of an input, in the middles of as many equal shares: an even number. A step is half of them.
+LEVELS = 8
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Effects:
+    """Result of :func:`elementary_effects`; inputs in the order of the shares."""
+
+    #: µ*: the mean of the absolute effects. It ranks the inputs.
+    mean_absolute: Sequence[Estimate]
+    #: σ: the standard deviation of the effects. Zero where the effect is the same everywhere.
+    deviation: Sequence[Estimate]
+    mean: float
+    evaluations: int
+    #: Trajectories that were left out, as they have no finite number somewhere.
+    left_out: int
+
+
+def elementary_effects(
+    function: Function,
+    in_deviations: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    inputs: int,
+    trajectories: int,
+    seed: int = 0,
+    level: float = 0.95,
+) -> Effects:
+    r"""Morris' screening: effects of one input at a time along random trajectories.
+
+    .. math::
+
+        e_i = \frac{f(x + \Delta_i) - f(x)}{\Delta_i/\sigma_i}, \quad \mu^*_i = E|e_i|
+
+    Morris 1991, Technometrics 33, 161–174; :math:`\mu^*` after Campolongo and others 2007, Environmental
+    Modelling & Software 22, 1509–1518. Each trajectory starts on a grid of shares and moves each input
+    once, in random order, by half of all shares. An effect is the change of the result for a change of
+    the input by its standard deviation :math:`\sigma_i`; ``in_deviations`` turns shares into values of
+    the inputs in that unit. So effects have the unit of the result, whatever the inputs are, and those of
+    a linear function are its slopes times the deviations.
+
+    Intervals hold with probability ``level``, by a bootstrap of the trajectories. Trajectories without a
+    finite number are left out. Raises :class:`~ballscrew.basis.errors.InputError` if they are more than a tenth.
+    """
+    rng = np.random.default_rng([seed, inputs])
+    start = np.minimum((sobol_sequence(inputs, trajectories, seed) * LEVELS).astype(int), LEVELS - 1)
+    end = (start + LEVELS // 2) % LEVELS
+    turn = rng.permuted(np.tile(np.arange(inputs)[:, np.newaxis], trajectories), axis=0)
+    moved = turn[..., np.newaxis] < np.arange(inputs + 1)  # inputs, trajectories, points of each
+    levels = np.where(moved, end[..., np.newaxis], start[..., np.newaxis])
+    values = function(((levels + 0.5) / LEVELS).reshape(inputs, -1)).reshape(trajectories, inputs + 1)
+    kept = finite(values.T)
+    change = np.take_along_axis(np.diff(values[kept], axis=1).T, turn[:, kept], axis=0)
+    step = (in_deviations((end + 0.5) / LEVELS) - in_deviations((start + 0.5) / LEVELS))[:, kept]
+    # an input that is kept where it is by its bounds has no effect
+    effects = np.divide(change, step, out=np.zeros_like(change), where=step != 0)
+    about_mean = effects - np.mean(effects, axis=1, keepdims=True)
+    means = resampled_means(np.concatenate([np.abs(effects), about_mean, about_mean**2]), seed)
+    absolute, signed, squared = np.split(means, 3, axis=1)
+    spread = np.sqrt(np.maximum(squared - signed**2, 0) * effects.shape[1] / (effects.shape[1] - 1))
+    return Effects(
+        _estimates(np.mean(np.abs(effects), axis=1), absolute, level),
+        _estimates(np.std(effects, axis=1, ddof=1), spread, level),
+        float(np.mean(values[kept])),
+        values.size,
+        int(np.sum(~kept)),
+    )
+
+
+def _estimates(values: NDArray[np.float64], resampled: NDArray[np.float64], level: float) -> list[Estimate]:
+    low, high = np.quantile(resampled, [(1 - level) / 2, (1 + level) / 2], axis=0)
+    return [Estimate(*map(float, row)) for row in zip(values, low, high, strict=True)]
+
+
+class Swing(NamedTuple):
+    """An output with one input at the lower and at the upper end of its distribution, all others at their medians."""
+
+    input: str
+    at_lower: float
+    at_upper: float
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The lesser and the greater of the two."""
+        return min(self.at_lower, self.at_upper), max(self.at_lower, self.at_upper)
+
+    @property
+    def width(self) -> float:
+        """How far apart they are; NaN where either is no number."""
+        return abs(self.at_upper - self.at_lower)
+
+
+def one_at_a_time(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    uncertain: Mapping[str, Distribution],
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    output: str = "screw_torque",
+    level: float = 0.95,
+) -> Sequence[Swing]:
+    """The swing of an ``output`` for each of the ``uncertain`` inputs, the widest first.
+
+    The ends of an input leave ``(1 - level) / 2`` of its distribution below and above. It costs two evaluations for
+    each input. What inputs do together, and the correlation that a fit leaves, is not in it: their sum is no band.
+    Swings without a number come last. Raises :class:`~ballscrew.basis.errors.InputError` for unknown names.
+    """
+    if not uncertain:
+        return ()
+    subject = Configuration(model, screw, lubricant)
+    known = subject.inputs
+    inputs = {name: within(distribution, known[name][1].info) for name, distribution in uncertain.items()}
+    point = {"axial_load": axial_load, "screw_speed": screw_speed}
+    fixed = {name: value for name, value in point.items() if name not in inputs}
+    shares = np.full((len(inputs), 2 * len(inputs)), 0.5)
+    for place in range(len(inputs)):
+        shares[place, 2 * place : 2 * place + 2] = (1 - level) / 2, (1 + level) / 2
+    values = Sampler(subject, inputs, fixed, (output,)).evaluate(shares)[output]
+    swings = [Swing(name, *map(float, values[2 * i : 2 * i + 2])) for i, name in enumerate(inputs)]
+    return sorted(swings, key=lambda swing: (-np.nan_to_num(swing.width, nan=-1.0), swing.input))
+
 
 #: How sensitivities can be had.
 Method = Literal["sobol", "morris", "local"]
@@ -155,7 +276,7 @@ def sensitivity(
       (:func:`~ballscrew.engine.uncertainty.sobol.sobol_indices`), from ``samples`` (inputs + 2) evaluations and at
       most as many again for ``explained_variance``; ``samples`` is a power of two.
     * ``"morris"``: the mean absolute effect of an input along ``samples`` trajectories, and the
-      deviation of its effects (:func:`~ballscrew.engine.uncertainty.morris.elementary_effects`), from ``samples``
+      deviation of its effects (:func:`~ballscrew.engine.uncertainty.sensitivity.elementary_effects`), from ``samples``
       (inputs + 1) evaluations.
     * ``"local"``: exact derivatives (:func:`~ballscrew.engine.evaluation.derivatives.derivatives`) at the medians
       of the inputs times their standard deviations, :math:`e_i = \sigma_i\,\partial y/\partial x_i`, and

@@ -1,7 +1,7 @@
 """Sobol' indices: shares of the variance of any function of independent inputs.
 
 The function takes shares, numbers between 0 and 1, of shape (inputs, samples), as
-:mod:`ballscrew.engine.uncertainty.sampling` makes them, and returns one number for each sample.
+:mod:`ballscrew.engine.uncertainty.monte_carlo` makes them, and returns one number for each sample.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.engine.uncertainty.sampling import sobol_sequence
+from ballscrew.engine.uncertainty.monte_carlo import sobol_sequence
 
 #: One number for each sample of shares of shape (inputs, samples).
 Function = Callable[[NDArray[np.float64]], NDArray[np.float64]]

@@ -13,10 +13,16 @@ from numpy.typing import NDArray
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
-from ballscrew.engine.evaluation.engines import Engine, engine_faults
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.evaluation.structures import Engine, engine_faults
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.evidence.calibration import baselines
+from ballscrew.evidence.calibration.baselines import (
+    MOST_TEMPERATURE_ERROR,
+    TemperatureError,
+    torque_per_kelvin,
+    usual_error,
+)
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.diagnostics import warning_records
 from ballscrew.evidence.calibration.fit_result import (
@@ -29,12 +35,6 @@ from ballscrew.evidence.calibration.fit_result import (
 )
 from ballscrew.evidence.calibration.identifiability import MAXIMUM_RELATIVE_ERROR, Identifiability, Uncertainty
 from ballscrew.evidence.calibration.jackknife import jackknife_covariance, operating_points
-from ballscrew.evidence.calibration.oil_temperature import (
-    MOST_TEMPERATURE_ERROR,
-    TemperatureError,
-    torque_per_kelvin,
-    usual_error,
-)
 from ballscrew.evidence.calibration.plausibility import verdict_records
 from ballscrew.evidence.calibration.priors import Priors
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start
@@ -99,7 +99,7 @@ def fit(
     drive torque. ``temperature_error`` (K) is half the width of the 95 % interval of the oil temperature, an error that
     all rows share and that no number of rows makes smaller: 2 K where the log has temperatures that the oil follows,
     otherwise 10 K. It does not move the estimates; their covariance has it
-    (:mod:`~ballscrew.evidence.calibration.oil_temperature`). The ``dynamic_load_rating`` (N) is what a fitted preload
+    (:mod:`~ballscrew.evidence.calibration.baselines`). The ``dynamic_load_rating`` (N) is what a fitted preload
     is judged by: numbers that no screw has are among the verdicts
     (:mod:`~ballscrew.evidence.calibration.plausibility`). The share ``holdout`` of the operating points, drawn with the
     ``seed``, is not fitted but predicted. Zero error and drift of the sensor are fitted beside the rest where the log

@@ -14,12 +14,18 @@ from ballscrew.basis.quantities import Force, Info, Quantity, Ratio, Unit, quant
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.moving_logs.equation import AT_REST, DeadTime, Equation, dead_time
-from ballscrew.evidence.moving_logs.linear_model import NAMES, LinearModel, linear_model, unit_change
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.evidence.moving_logs.power_law import PowerLaw, power_law
 from ballscrew.evidence.moving_logs.regression import relative_error
 from ballscrew.evidence.moving_logs.screw_friction import ScrewFriction
-from ballscrew.evidence.moving_logs.screw_model import ScrewModelFit, fit_screw_model
+from ballscrew.evidence.moving_logs.screw_model import (
+    NAMES,
+    LinearModel,
+    ScrewModelFit,
+    fit_screw_model,
+    linear_model,
+    unit_change,
+)
 from ballscrew.files.torque_logs.log_rows import Time
 from ballscrew.files.torque_logs.motion import Floats
 from ballscrew.physics.components.materials import Lubricant
@@ -184,7 +190,7 @@ def fit_motion(
     which the fit starts. ``data`` is a :class:`~ballscrew.evidence.moving_logs.moving_log.MovingLog`, or a mapping of
     arrays in SI: ``time``, ``position`` (or ``speed``) of the nut, and ``force`` of the motor at the nut (or its
     ``torque`` at the screw). The friction is fitted three times: constant and viscous
-    (:mod:`~ballscrew.evidence.moving_logs.linear_model`, the inverse dynamic model of JanotGautierBrunot2019), a free
+    (:mod:`~ballscrew.evidence.moving_logs.screw_model`, the inverse dynamic model of JanotGautierBrunot2019), a free
     power of the speed (:mod:`~ballscrew.evidence.moving_logs.power_law`), and the friction of the model given, whose
     numbers ``free`` names as :func:`~ballscrew.evidence.calibration.fit.fit` does, with a constant and a viscous part
     beside it (:mod:`~ballscrew.evidence.moving_logs.screw_model`). By default the viscosity is free; where the screw

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.quantities import within_bounds
+from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any
+from ballscrew.basis.quantities import Length, within_bounds
 from ballscrew.evidence.moving_logs.columns import (
     EMPS,
     EMPS_GAIN,
@@ -34,8 +35,9 @@ from ballscrew.files.torque_logs import columns
 from ballscrew.files.torque_logs.columns import Layout
 from ballscrew.files.torque_logs.matlab_files import is_matlab, variables
 from ballscrew.files.torque_logs.motion import Floats
-from ballscrew.files.torque_logs.numbers import NumberReader
+from ballscrew.files.torque_logs.reading import NumberReader, read
 from ballscrew.files.torque_logs.sources import source_of
+from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 #: Rows of text that are read at a time, and most rows of a moving log.
 CHUNK, MOST_ROWS = 200_000, 5_000_000
@@ -255,3 +257,31 @@ def _force_of_power(name: str, power: Floats, speed: Floats | None) -> Floats:
         raise InputError(Fault(f"{name} column power", "makes a force only over a speed that is logged", "", remedy))
     slow = np.abs(speed) < _SLOWEST * np.nanmax(np.abs(speed))
     return np.where(slow, np.nan, power / np.where(slow, np.nan, speed))
+
+
+@accepts_units("read_log")
+def read_log(
+    path: str | os.PathLike[str],
+    columns: Mapping[str, str] | None = None,
+    *,
+    lead: Length | None = None,
+    torque_constant: float | None = None,
+    keep_going: bool = False,
+) -> TorqueLog | MovingLog:
+    """The log of the file ``path``, as ``ballscrew fit`` reads it: .csv, .txt, .xlsx, .mat and others.
+
+    Headings have the units. A log of steady tests has loads, speeds and torques: it is a :class:`~ballscrew.TorqueLog`,
+    for :func:`~ballscrew.fit`. A log of positions and forces over time is a :class:`~ballscrew.MovingLog`, for
+    :func:`~ballscrew.fit_motion`; it needs the ``lead`` (m), as feed rates in the other do. ``columns`` says which
+    heading a column has where the file does not: ``{"torque": "M_ist [N m]"}``. A current needs the ``torque_constant``
+    (N m/A).
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a file that cannot be read; with ``keep_going`` rows with
+    faults are left out and counted.
+    """
+    place, named = Path(path), dict(columns or {})
+    if not is_moving(place, named):
+        return read(place, named, torque_constant=torque_constant, lead=lead, keep_going=keep_going)
+    if lead is None:
+        raise InputError(Fault("read_log.lead", "is needed for a log of positions", "", "give lead=screw.lead"))
+    return read_moving(place, named, lead=float(lead), torque_constant=torque_constant, keep_going=keep_going)

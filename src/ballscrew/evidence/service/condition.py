@@ -18,10 +18,9 @@ from ballscrew.engine.uncertainty.distributions import Distribution, standard_no
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.change_detection import Trend, chart, robust_scatter, trend
 from ballscrew.evidence.service.condition_means import Means, of_logs, of_series
-from ballscrew.evidence.service.condition_parts import parts_of
 from ballscrew.evidence.service.condition_records import records_of
 from ballscrew.evidence.service.condition_reduction import Reduction, reduced
-from ballscrew.evidence.service.condition_values import Condition, State
+from ballscrew.evidence.service.condition_values import Condition, State, parts_of
 from ballscrew.evidence.service.posterior import MODEL_ERROR
 from ballscrew.evidence.service.preload_change import held_numbers, with_preload
 from ballscrew.files.torque_logs.log_rows import Kind
@@ -31,7 +30,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 
 if TYPE_CHECKING:
-    from ballscrew.engine.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
 #: Tests of the baseline by default, and at least.
 BASELINE, LEAST_BASELINE = 5, 3

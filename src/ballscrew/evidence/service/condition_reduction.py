@@ -20,14 +20,14 @@ from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution
-from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.condition_means import Means, points_of
 from ballscrew.evidence.service.posterior import FRICTION, PRELOAD
 from ballscrew.physics.components.materials import TEMPERATURE
 
 if TYPE_CHECKING:
-    from ballscrew.engine.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
 #: Samples of the numbers of the model, a power of two.
 SAMPLES = 64
@@ -82,7 +82,7 @@ class _Samples:
     def of(
         cls, subject: Configuration, known: Mapping[str, Distribution], joint: JointNormal | None, seed: int
     ) -> _Samples:
-        from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence  # loads xarray
+        from ballscrew.engine.uncertainty.monte_carlo import Sampler, sobol_sequence  # loads xarray
 
         together = () if joint is None else joint.names
         sampler = Sampler(subject, {n: one for n, one in known.items() if n not in together}, {}, (), joint)

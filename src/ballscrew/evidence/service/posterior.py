@@ -20,14 +20,14 @@ from numpy.typing import NDArray
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_quantile, standard_normal_share
+from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, torque_of_model, usual_error
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.fit import points_of
-from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, torque_of_model, usual_error
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.robust import Vector
 
 if TYPE_CHECKING:
-    from ballscrew.engine.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
 #: Weights of ideal and friction torque: the friction torque alone.
 FRICTION = np.array([[0.0], [1.0]])
@@ -249,7 +249,7 @@ def posterior(
     """Samples of what the logs say, by adaptive importance sampling (see :data:`ROUNDS`)."""
     from scipy.special import logsumexp  # slow to import: for those only who fit
 
-    from ballscrew.engine.uncertainty.sampling import sobol_sequence  # loads xarray
+    from ballscrew.engine.uncertainty.monte_carlo import sobol_sequence  # loads xarray
 
     names, logs = list(uncertain), list(groups)
     count = len(names) + len(logs)

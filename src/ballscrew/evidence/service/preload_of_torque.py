@@ -14,7 +14,7 @@ from ballscrew.basis.quantities import AngularSpeed, Temperature, Torque
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_quantile
-from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.posterior import PRELOAD
 from ballscrew.evidence.service.preload_change import held_numbers, with_preload
@@ -24,7 +24,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 
 if TYPE_CHECKING:
-    from ballscrew.engine.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
 #: A preload is looked for between these multiples of the nominal one, by so many halvings.
 LEAST, MOST, HALVINGS = 1e-3, 1e2, 40
@@ -64,7 +64,7 @@ def preload_of_torque(
     Raises :class:`~ballscrew.basis.errors.InputError` for a nut without preload or with elastic bodies, a torque or a
     speed that is not positive, and a torque that no preload gives.
     """
-    from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence  # loads xarray
+    from ballscrew.engine.uncertainty.monte_carlo import Sampler, sobol_sequence  # loads xarray
 
     subject = with_preload(Configuration(model, screw, lubricant))
     for name, value in {"torque": torque, "screw_speed": screw_speed}.items():

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.compiler.tracing.grid import Split
+from ballscrew.compiler.tracing.merging import Stages
 from ballscrew.compiler.tracing.program import Program
-from ballscrew.compiler.tracing.reductions import Stages
 from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.engine.evaluation.by_ball import stages_by_ball
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION

@@ -109,7 +109,7 @@ def _operating_point(case: Case, self_heating: bool) -> Answer:
     from ballscrew.questions.run.answer import document
     from ballscrew.questions.run.compute import run
     from ballscrew.questions.run.sheet import sheet
-    from ballscrew.questions.warm_up.answer import with_self_heating
+    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     heating = None
     if self_heating:
@@ -186,8 +186,8 @@ def _warm_band(case: Case, options: BandOptions, done: Done) -> Answer:
     from ballscrew.questions.band.document import document
     from ballscrew.questions.band.sheet import sheet
     from ballscrew.questions.run.compute import run
-    from ballscrew.questions.warm_up.answer import with_self_heating
     from ballscrew.questions.warm_up.self_heating import self_heating
+    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     heating = self_heating(case)
     report = compute.band(heating.warm, options, done, heat_samples(heating, only_given=options.only_given))

@@ -100,10 +100,10 @@ def list_oils(
     as_json: AsJson = False,
 ) -> None:
     """All oils, one line each."""
-    from ballscrew.cases.case_files import oil_library
+    from ballscrew.cases.case_files import lubricants
     from ballscrew.questions.oils import document, list_text
 
-    sheets = oil_library.chosen(oil_library.oils(file), " ".join(words or []))
+    sheets = lubricants.chosen(lubricants.oils(file), " ".join(words or []))
     print_answer(lambda: list_text(sheets), lambda: document(sheets), as_json=as_json)
 
 
@@ -117,10 +117,10 @@ def show_oil(
 
     The viscosities are from -40 to 120 degC.
     """
-    from ballscrew.cases.case_files import oil_library
+    from ballscrew.cases.case_files import lubricants
     from ballscrew.questions.oils import document, show_text
 
-    sheet = oil_library.oils(file).named(name)
+    sheet = lubricants.oils(file).named(name)
     print_answer(lambda: show_text(sheet), lambda: document([sheet]), as_json=as_json)
 
 
@@ -164,8 +164,8 @@ def card_log(
 
     Both are as ballscrew fit takes them.
     """
-    from ballscrew.cases.torque_cards import torque_card, torque_card_log
+    from ballscrew.cases.torque_cards import torque_card
 
     read = torque_card.read(card)
-    torque_card_log.write(read, card.parent, to, case)
+    torque_card.write(read, card.parent, to, case)
     typer.echo(f"{to}: {len(torque_card.log_rows(read))} rows; {case}")

@@ -422,7 +422,7 @@ def validate(
     if to is not None:
         charts.check_picture(to)
     if report is not None:
-        from ballscrew.faces.report.files import check_kind
+        from ballscrew.faces.report.pdf import check_kind
 
         check_kind("--report", report)
     print_notes_of_rows(request.notes)
@@ -460,7 +460,7 @@ def validate(
 
 def _write_paper(request: Request, entries: Sequence[Sequence[Entry]], path: Path) -> int:
     """Write all of a validation as one paper, and return its size in bytes."""
-    from ballscrew.faces.report.files import written
+    from ballscrew.faces.report.pdf import written
     from ballscrew.faces.report.validation import report
     from ballscrew.questions.validate.sheet import summary
 

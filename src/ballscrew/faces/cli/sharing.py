@@ -50,12 +50,12 @@ def report(
     only where --date says one.
     """
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.faces.report.files import check_kind
+    from ballscrew.faces.report.pdf import check_kind
 
     kind = check_kind(_TO, to)
     from ballscrew.basis.atomic_files import atomic_write
-    from ballscrew.faces.report.files import report_bytes
-    from ballscrew.faces.report.heading import Heading
+    from ballscrew.faces.report.contents import Heading
+    from ballscrew.faces.report.pdf import report_bytes
 
     if len(beside or []) > _MOST_BESIDE:
         most = f"{_MOST_BESIDE} at most"
@@ -80,14 +80,14 @@ def hand_over(
     as_json: AsJson = False,
 ) -> None:
     """Write the model for a simulator, a robot or a control. Its range and its worst error come with it."""
-    from ballscrew.exports import requests
+    from ballscrew.exports import hand_over
     from ballscrew.questions.hand_over import document
 
-    requests.check_target(to)
+    hand_over.check_target(to)
     loaded = case_options.load(case)
-    request = requests.Request(**vars(options))
+    request = hand_over.Request(**vars(options))
     with progress("hand-over"):
-        export = requests.of_case(loaded, to, request)
+        export = hand_over.of_case(loaded, to, request)
     files = export.write(out)
     print_answer(
         lambda: document.text(export, files), lambda: document.document(export, loaded, files), as_json=as_json
@@ -198,13 +198,13 @@ def serve(
     if missing:
         raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
     listening = _listening(host, port)
-    from ballscrew.faces.web import connections, guard, server
+    from ballscrew.faces.web import connections, limits, server
     from ballscrew.faces.web.job_process import Forks
     from ballscrew.faces.web.jobs import Jobs
     from ballscrew.faces.web.request_queue import TIME_LIMIT, RequestQueue
 
     name = f"[{host}]" if ":" in host else host
-    hosts = guard.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (name.lower(), *guard.LOOPBACK)
+    hosts = limits.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (name.lower(), *limits.LOOPBACK)
     limit = TIME_LIMIT if time_limit is None else time_limit
     jobs = Jobs(limit)
     application = server.application(hosts, RequestQueue(limit), jobs)

@@ -353,7 +353,7 @@ def dimensions_of(table: Sequence[Mapping[str, Any]]) -> range:
 
 
 def sobol_numbers(dimensions: int, samples: int) -> dict[str, Any]:
-    """What makes the points of :func:`~ballscrew.engine.uncertainty.sampling.sobol_sequence`: whole numbers to combine.
+    """Whole numbers whose combinations are :func:`~ballscrew.engine.uncertainty.monte_carlo.sobol_sequence`.
 
     ``first`` has the first point and ``turns`` by input what each further one is turned by, as multiples of ``unit``.
     """

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import datetime
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import InputError
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.output import bibliography
 from ballscrew.basis.output.sheet import Table as SheetTable
 from ballscrew.basis.records import Record
@@ -19,7 +20,7 @@ from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.curves import Curves, curves
 from ballscrew.faces.report.drawing import drawing
 from ballscrew.faces.sheets import report_blocks
-from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
+from ballscrew.physics.sizing.rules import GENERAL, speed_limit_of
 from ballscrew.questions.band import compute, sheet
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.band.sheet import tornado
@@ -42,8 +43,51 @@ from ballscrew.questions.shared.report_blocks import (
     sentence,
 )
 
-if TYPE_CHECKING:  # loads xarray
+if TYPE_CHECKING:
     from ballscrew.questions.duty.band import DutyBandReport
+
+#: Letters of the name of a project.
+LONGEST = 120
+
+
+class Heading(NamedTuple):
+    """The name of a project and a date, as they stand on a report; empty where there are none."""
+
+    project: str = ""
+    date: str = ""
+
+    @classmethod
+    def of(cls, project: str | None, date: str | None) -> Heading:
+        """The heading of texts that people gave; ``today`` is a date, too.
+
+        Raises :class:`~ballscrew.basis.errors.InputError` for a name of several lines or too many letters, and for a
+        date that is not one of the calendar, such as 2026-11-23.
+        """
+        faults: list[Fault] = []
+        name, day = (project or "").strip(), (date or "").strip()
+        if len(name) > LONGEST or not name.isprintable():
+            remedy = f"one line of {LONGEST} letters at most"
+            faults.append(Fault("--project", "cannot stand on a report", repr(name[:40]), remedy))
+        if day == "today":
+            day = datetime.date.today().isoformat()
+        if day and not _is_date(day):
+            faults.append(Fault("--date", "is no date", day[:40], "write it as 2026-11-23, or leave it out"))
+        raise_if_any(faults)
+        return cls(name, day)
+
+    @property
+    def lines(self) -> list[str]:
+        """What stands below the title."""
+        said = [f"Project: {self.project}"] * bool(self.project) + [f"Date: {self.date}"] * bool(self.date)
+        return [" · ".join(said)] if said else []
+
+
+def _is_date(text: str) -> bool:
+    try:
+        return datetime.date.fromisoformat(text).isoformat() == text
+    except ValueError:
+        return False
+
 
 Done = Callable[[int, int], None]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.

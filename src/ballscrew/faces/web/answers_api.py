@@ -14,7 +14,7 @@ from starlette.background import BackgroundTask
 from starlette.responses import StreamingResponse
 
 from ballscrew.basis.errors import InputError
-from ballscrew.faces.web import documents, limits, memory, openapi, problems
+from ballscrew.faces.web import documents, limits, openapi, problems
 from ballscrew.faces.web.bodies import MOST_BYTES, MOST_VALUES, CaseBody, Tables, read
 from ballscrew.faces.web.endpoint_parts import as_bytes, cancellable, of_tables, queue_of
 from ballscrew.faces.web.problems import Refused
@@ -223,7 +223,7 @@ class _Asked:
         """Give back what heavy work has left behind: once, after the last line, as it takes as long as a curve."""
         if self._is_heavy:
             with contextlib.suppress(Refused):  # a server that ends meanwhile gives all of it back
-                await self.queue.heavy(memory.releasing(lambda _: None))
+                await self.queue.heavy(limits.releasing(lambda _: None))
 
     async def _of_run(self, work: Callable[[Run], dict[str, Any]]) -> dict[str, Any]:
         """Work on the run: quick, unless many balls are computed one by one."""

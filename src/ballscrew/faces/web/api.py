@@ -21,7 +21,7 @@ from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.screw_tables import catalogue as rows
 from ballscrew.cases.screw_tables.own_nut import own_nut_of
 from ballscrew.faces.page import starts, vocabulary
-from ballscrew.faces.report.heading import Heading
+from ballscrew.faces.report.contents import Heading
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web import (
     answers_api,
@@ -169,7 +169,7 @@ async def report(
     heading = Heading.of(options.project, options.date)
 
     def work(done: Deadline) -> Response:
-        from ballscrew.faces.report.files import Kind, report_bytes  # slow to import
+        from ballscrew.faces.report.pdf import Kind, report_bytes  # slow to import
 
         cases = [case_of(tables) for tables in (body.case, *body.beside)]
         file: Kind = "pdf" if kind == "pdf" else "html"

@@ -15,8 +15,8 @@ from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from ballscrew.basis.errors import Fault
 from ballscrew.faces.web import problems
 from ballscrew.faces.web.bodies import READ_TIMEOUT
-from ballscrew.faces.web.guard import HEADERS
 from ballscrew.faces.web.jobs import Jobs
+from ballscrew.faces.web.limits import HEADERS
 from ballscrew.faces.web.request_queue import RequestQueue
 
 #: Bytes of the head of a request.

@@ -21,10 +21,10 @@ from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Sheet
 from ballscrew.cases.case_files import case_file
-from ballscrew.faces.web import documents, limits, memory, openapi
+from ballscrew.faces.web import documents, limits, openapi
 from ballscrew.faces.web.bodies import Body, case_of, read
+from ballscrew.faces.web.documents import KeptAnswers, Question
 from ballscrew.faces.web.jobs import API, Jobs
-from ballscrew.faces.web.kept_answers import KeptAnswers, Question
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue, out_of_time
 from ballscrew.questions.run import compute
@@ -164,7 +164,7 @@ async def processed(request: Request, work: Callable[[Deadline], Any]) -> Any:
     """
     guard: Jobs | None = request.app.state.guard
     if guard is None:
-        return await queue_of(request).heavy(work if request.app.state.ends_with_work else memory.releasing(work))
+        return await queue_of(request).heavy(work if request.app.state.ends_with_work else limits.releasing(work))
     address = request.url.path.removeprefix(API)
     answer = await guard.answer(address, request.url.query, request.state.body)
     return Response(answer.body, answer.status, media_type=answer.media_type)
@@ -223,7 +223,7 @@ async def of_tables(requests: RequestQueue, tables: Mapping[str, Any], work: Cal
         return answers[0]
     if limits.has_long_motion(case):
         raise out_of_time(requests.time_limit)
-    return await requests.heavy(memory.releasing(lambda _: work(documents.run_of(case, tables))))
+    return await requests.heavy(limits.releasing(lambda _: work(documents.run_of(case, tables))))
 
 
 async def _quick(

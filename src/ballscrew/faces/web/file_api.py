@@ -24,7 +24,7 @@ from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.opened_file import opened
 from ballscrew.cases.case_files.project import KEY, VERSION, designs_of, tables_of
-from ballscrew.exports import requests
+from ballscrew.exports import hand_over as requests
 from ballscrew.exports.export import Export
 from ballscrew.faces.web import openapi
 from ballscrew.faces.web.bodies import (
@@ -40,8 +40,8 @@ from ballscrew.faces.web.bodies import (
     refuse_nulls,
 )
 from ballscrew.faces.web.endpoint_parts import always, as_json, heavy, post, with_sheet
+from ballscrew.faces.web.files import written
 from ballscrew.faces.web.request_queue import Deadline
-from ballscrew.faces.web.sent_files import written
 from ballscrew.files.torque_logs.preview import preview
 from ballscrew.questions.fit import compute, document
 from ballscrew.questions.fit import document as fit_documents

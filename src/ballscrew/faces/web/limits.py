@@ -6,18 +6,120 @@ would be too large to send, what runs in threads of the server, and how many sam
 
 from __future__ import annotations
 
+import ctypes
+import gc
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+import re
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.cases.case_files.case_file import Case
+from ballscrew.engine.evaluation import recordings
 from ballscrew.engine.uncertainty.bands import NUT_SAMPLES, SAMPLES
+from ballscrew.faces.page.bundle import policy
+from ballscrew.faces.web import problems
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.questions.shared.options import options_of
 from ballscrew.questions.sweep import compute
 from ballscrew.questions.sweep.band import INNER
+
+Argument = TypeVar("Argument")
+Result = TypeVar("Result")
+
+
+def _trimming() -> Callable[[int], int] | None:
+    """``malloc_trim`` of glibc, which keeps what was freed; no other allocator needs it."""
+    library: Any = ctypes.CDLL(None) if sys.platform == "linux" else None
+    return getattr(library, "malloc_trim", None)
+
+
+_TRIM = _trimming()
+
+
+def keep_loaded() -> None:
+    """Spare the collector what is loaded by now and stays: each collection is the quicker."""
+    gc.collect()
+    gc.freeze()
+
+
+def releasing(work: Callable[[Argument], Result]) -> Callable[[Argument], Result]:
+    """The work; after it its cycles (figures, tapes) are collected, and their memory goes back to the system.
+
+    Recordings are dropped, too: each case of a user has its own, which few will ask for again. Those that serve every
+    case of a kind stay, and the collector is spared them.
+    """
+
+    def released(argument: Argument) -> Result:
+        made = recordings.Structures.made
+        try:
+            return work(argument)
+        finally:
+            recordings.forget()
+            if recordings.Structures.made == made:
+                gc.collect()
+            else:
+                keep_loaded()
+            if _TRIM is not None:
+                _TRIM(0)
+
+    return released
+
+
+#: Names of the machine that the server runs on: it answers to these, unless told otherwise.
+LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
+#: Headers of every response: browsers run and show only files of this server; of code only WebAssembly may be compiled.
+HEADERS: Mapping[str, str] = {
+    "Content-Security-Policy": f"{policy()}; font-src 'self'; frame-ancestors 'none'",
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+}
+_PORT = re.compile(r":\d*$")
+
+
+class Guard:
+    """ASGI middleware around everything, also around the response to a defect of the server.
+
+    It refuses requests for other names, so that no other site can use the server through a browser. Starlette's own
+    check of the host answers with plain text, without these headers.
+    """
+
+    def __init__(self, inner: ASGIApp, hosts: Sequence[str]) -> None:
+        self.inner = inner
+        self.hosts = hosts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Handle one request."""
+        method = scope.get("method", "")
+
+        async def send_with_headers(message: Message) -> None:
+            if method == "HEAD" and message["type"] == "http.response.body":
+                message = {**message, "body": b""}
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                headers.update(HEADERS)
+                headers.setdefault("Cache-Control", "no-store")
+            await send(message)
+
+        if scope["type"] != "http":
+            await self.inner(scope, receive, send)
+            return
+        host = Headers(scope=scope).get("host", "")
+        if method == "HEAD":  # FastAPI would refuse it where it answers GET; the headers are the same
+            scope = {**scope, "method": "GET"}
+        if "*" in self.hosts or _PORT.sub("", host).lower() in self.hosts:
+            await self.inner(scope, receive, send_with_headers)
+        else:
+            response = problems.response(421, [Fault("Host", "is not a name of this server", host[:80])])
+            await response(scope, receive, send_with_headers)
+
 
 #: Axes and points of a sweep, and the values that it returns.
 MOST_AXES, MOST_POINTS, MOST_RETURNED = 8, 20_000, 200_000

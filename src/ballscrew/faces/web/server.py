@@ -18,13 +18,13 @@ from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.version import __version__
 from ballscrew.engine.evaluation import recordings
 from ballscrew.faces.page import vocabulary
-from ballscrew.faces.web import api, bodies, files, memory, openapi, problems, question_api
+from ballscrew.faces.web import api, bodies, files, limits, openapi, problems, question_api
 from ballscrew.faces.web.bodies import case_of
 from ballscrew.faces.web.body_examples import examples
-from ballscrew.faces.web.guard import LOOPBACK, Guard
+from ballscrew.faces.web.documents import KeptAnswers
 from ballscrew.faces.web.job_process import MOST_MEMORY, Asked, answered
 from ballscrew.faces.web.jobs import API, Jobs
-from ballscrew.faces.web.kept_answers import KeptAnswers
+from ballscrew.faces.web.limits import LOOPBACK, Guard
 from ballscrew.faces.web.modules import Modules
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue
@@ -127,10 +127,10 @@ def rehearsal(app: FastAPI) -> Iterator[None]:
         body = question_api.BODIES[question.name]
         question_api.answer(question, body(**examples(body.__name__)["paper"]), Deadline(math.inf))
     recordings.forget()
-    memory.keep_loaded()
+    limits.keep_loaded()
 
 
 def warm_up() -> None:
     """Load and compute what the first request would otherwise wait for."""
     run(case_of(vocabulary.vocabulary()["starts"]["paper"]["case"]))
-    memory.keep_loaded()
+    limits.keep_loaded()

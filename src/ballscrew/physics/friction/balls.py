@@ -14,12 +14,12 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import dissipation, equilibrium, geometry, kinematics
 from ballscrew.physics.equations.rolling import nut_pressure_force, screw_pressure_force
-from ballscrew.physics.laws.balance import Resistances, ball_forces
 from ballscrew.physics.laws.ball_chain import BallInCircuit, force_between_balls
 from ballscrew.physics.laws.conditions import Motion
 from ballscrew.physics.laws.contact import Contact, ContactLaws, RaceState, rolling_contact
 from ballscrew.physics.laws.frame import Frame
 from ballscrew.physics.laws.protocols import BallChain, RaceTorqueLaw
+from ballscrew.physics.laws.torque import Resistances, ball_forces
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.slip import BallProblem, ContactSlip, Slip
 

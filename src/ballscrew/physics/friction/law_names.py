@@ -15,7 +15,7 @@ from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.physics.laws import ball_chain, film, frame, friction, hertz, inlet, rolling, torque
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.line_slip import line_slip
-from ballscrew.physics.solvers.pure_rolling import curvature_slip
+from ballscrew.physics.solvers.slip import curvature_slip
 
 #: The laws of each slot by name: functions, and classes where a law has coefficients.
 LAWS: Mapping[str, Mapping[str, Any]] = {

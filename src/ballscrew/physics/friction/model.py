@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import warnings
 from collections.abc import Mapping
 from types import SimpleNamespace
 from typing import Annotated, Any
@@ -15,15 +16,15 @@ from ballscrew.basis.errors import Fault, accepts_units, faults_of, names_keywor
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, fields_of
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.nut import Bodies, Deviations, Nut, SingleNut
 from ballscrew.physics.components.operating_state import USE_SWEEP, OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations.transmission import contact_load as equal_contact_load
 from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.law_names import fault_of_law
 from ballscrew.physics.friction.loaded_balls import balls_under, loads_of, row_of_balls
-from ballscrew.physics.friction.plausibility import named_parts
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.friction.validity import named_parts
 from ballscrew.physics.laws.ball_chain import (
     CircuitForceLaw,
     ProportionalBallForce,
@@ -40,6 +41,7 @@ from ballscrew.physics.laws.frame import bearing_frame, helix_frame
 from ballscrew.physics.laws.friction import RunInSharing, ZhouHoeprich
 from ballscrew.physics.laws.hertz import exact_hertz, houpert_hertz
 from ballscrew.physics.laws.inlet import Inlet, ideal_inlet
+from ballscrew.physics.laws.nut_losses import ParasiticLaw
 from ballscrew.physics.laws.outside import usable
 from ballscrew.physics.laws.protocols import (
     BallChainLaw,
@@ -67,8 +69,7 @@ from ballscrew.physics.laws.torque import (
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.physics.solvers.pure_rolling import curvature_slip
-from ballscrew.physics.solvers.slip import Slip, SlipLaw
+from ballscrew.physics.solvers.slip import Slip, SlipLaw, curvature_slip
 
 PAPER_FRICTION = ZhouHoeprich()
 
@@ -362,3 +363,36 @@ def presets() -> Mapping[str, FrictionModel]:
         FrictionModel.reference(),
     )
     return {model.name: model for model in models}
+
+
+def nut_friction(
+    model: FrictionModel,
+    screw: BallScrew,
+    nut: Nut,
+    lubricant: Lubricant,
+    *,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    bodies: Bodies | None = None,
+    deviations: Deviations | None = None,
+    losses: Mapping[str, ParasiticLaw] | None = None,
+) -> FrictionResult:
+    """Deprecated: call the model with ``dataclasses.replace(screw, nut=nut)``.
+
+    Returns the :class:`~ballscrew.physics.friction.result.FrictionResult` of ``model`` for ``screw`` with another
+    ``nut`` and with ``lubricant``, at ``axial_load`` (N) and ``screw_speed`` (rad/s); arrays broadcast. ``bodies``,
+    ``deviations`` and ``losses`` take the place of those of the nut, where they are given. The contact angle of a
+    single nut follows its load here, as with ``SingleNut(angle_under_load=True)``.
+
+    Raises what the model raises (:class:`~ballscrew.basis.errors.InputError`).
+    """
+    warnings.warn(
+        "nut_friction is deprecated: a ball screw has its nut, model(BallScrew(…, nut=…), oil, …)",
+        DeprecationWarning,
+        stacklevel=2,
+    )
+    parts = {"bodies": bodies, "deviations": deviations, "losses": losses}
+    nut = dataclasses.replace(nut, **{name: part for name, part in parts.items() if part is not None})
+    if isinstance(nut, SingleNut):
+        nut = dataclasses.replace(nut, angle_under_load=True)
+    return model(dataclasses.replace(screw, nut=nut), lubricant, axial_load=axial_load, screw_speed=screw_speed)

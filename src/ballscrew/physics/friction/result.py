@@ -28,10 +28,10 @@ from ballscrew.physics.equations import transmission
 from ballscrew.physics.friction import directions, loaded_balls, starvation
 from ballscrew.physics.friction.balls import MECHANISMS as MECHANISMS
 from ballscrew.physics.friction.loaded_balls import LoadedBalls, LoadedPair
-from ballscrew.physics.friction.plausibility import implausible
 from ballscrew.physics.friction.validity import (
     NUT_CONDITIONS,
     imbalance_records,
+    implausible,
     input_mask,
     validity_masks,
     warning_records,

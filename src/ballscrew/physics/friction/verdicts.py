@@ -22,8 +22,8 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.arrays import namespace
-from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, at_least, is_nan
 from ballscrew.basis.quantities import Force, Info, Mask, Quantity, fields_of, quantities_of
+from ballscrew.basis.records import Judgement, Sentence, Shown, Words, at_least, is_nan
 from ballscrew.physics.components.nut import PRELOAD
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction import directions, starvation

@@ -14,8 +14,7 @@ from typing import Annotated, Any
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
 from ballscrew.basis.quantities import Angle, Count, DiameterSpeed, Force, Info, Length, Ratio, Stiffness, Torque, Unit
-from ballscrew.physics.components.ratings import RATING_CONFORMITY
-from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.screw import RATING_CONFORMITY, BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.sizing.listed_nut import faults_of_nut, nut_of
 

@@ -23,8 +23,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.basis.arrays import namespace, where
-from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, at_least, at_most, is_nan
 from ballscrew.basis.quantities import Force
+from ballscrew.basis.records import Judgement, Sentence, Shown, Words, at_least, at_most, is_nan
 from ballscrew.physics.equations import life, shaft
 from ballscrew.physics.friction.validity import LARGEST_PRESSURE
 

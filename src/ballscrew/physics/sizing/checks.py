@@ -9,9 +9,8 @@ import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any, shown
-from ballscrew.basis.judgements import Judgement, at_least, at_most
 from ballscrew.basis.quantities import AngularSpeed, Force, Length, Pressure, Ratio, fields_of
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Judgement, Record, at_least, at_most
 from ballscrew.physics.components.nut import Nut, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
@@ -21,12 +20,11 @@ from ballscrew.physics.sizing.check_table import HOUR as HOUR
 from ballscrew.physics.sizing.check_table import NOT_CHECKED as NOT_CHECKED
 from ballscrew.physics.sizing.check_table import NOT_JUDGED as NOT_JUDGED
 from ballscrew.physics.sizing.check_table import UNJUDGED as UNJUDGED
-from ballscrew.physics.sizing.dn_limits import GENERAL, SpeedLimit
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.physics.sizing.ratings import Ratings as Ratings
 from ballscrew.physics.sizing.ratings import ratings_of as ratings_of
-from ballscrew.physics.sizing.sources import Source
+from ballscrew.physics.sizing.rules import GENERAL, Source, SpeedLimit
 
 #: The kind of source of the formulas and limits of each check, where its inputs do not change it.
 SOURCES = cast("Mapping[str, Source]", {row.name: row.source for row in CHECKS})
@@ -213,7 +211,7 @@ def checks(
     ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
     ``maximum_pressure`` is that of the most loaded contact. The DN value is held against that of ``limits``, if one is
     set there, else against ``speed_limit``, that of the make of the nut, else against a general one
-    (:data:`~ballscrew.physics.sizing.dn_limits.GENERAL`); the text says which. Without a ``root_diameter`` that of
+    (:data:`~ballscrew.physics.sizing.rules.GENERAL`); the text says which. Without a ``root_diameter`` that of
     the groove is taken. ``computed_ratings`` names the ratings that are not listed but follow from the geometry, by
     ISO3408-5 as recalled: the check of the static one is then of that source, too.
     Raises :class:`~ballscrew.basis.errors.InputError` for values that are not positive, and a largest load below the

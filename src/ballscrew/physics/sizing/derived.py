@@ -9,12 +9,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.basis.arrays import where
-from ballscrew.basis.judgements import is_nan
 from ballscrew.basis.quantities import AngularSpeed, Force, Torque
+from ballscrew.basis.records import is_nan
 from ballscrew.basis.usual_ranges import is_unusual
 from ballscrew.physics.components.nut import PRELOAD
-from ballscrew.physics.components.ratings import is_odd_preload, rating_of
-from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.screw import BallScrew, is_odd_preload, rating_of
 from ballscrew.physics.equations import transmission
 from ballscrew.physics.sizing.check_table import loads_at_point
 from ballscrew.physics.sizing.checks import groove_bottom
@@ -35,7 +34,7 @@ def derived(
     idle_losses: Torque,
     listed: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """Values of :mod:`ballscrew.physics.sizing.judged` by their names, and a few that people look for.
+    """Values of :mod:`ballscrew.physics.sizing.rules` by their names, and a few that people look for.
 
     ``remaining_preload`` is what the load leaves of the preload; ``idle_torque`` the torque on the screw without load,
     of which ``idle_losses`` are not of the balls; ``listed`` has :data:`LISTED`. The torque of the nut without load and

@@ -108,7 +108,7 @@ class Limits(ByValue):
 
     Defaults, all of THK514E: a static safety of 2, its least for loads without shocks (5 with them); a stress of
     147 MPa; half of the buckling load; 0.8 of the critical speed. No running time is asked for by default, and the DN
-    value is held against that of the make of the nut, or a general one (:mod:`ballscrew.physics.sizing.dn_limits`).
+    value is held against that of the make of the nut, or a general one (:mod:`ballscrew.physics.sizing.rules`).
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 

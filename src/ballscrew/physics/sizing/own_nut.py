@@ -29,7 +29,7 @@ from ballscrew.physics.equations import geometry
 from ballscrew.physics.laws.nut_losses import Seals, seal_table
 from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, SMALLEST_BALL, CatalogueRow
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
-from ballscrew.physics.solvers.rated_ball import ball_of_rating
+from ballscrew.physics.solvers.swelling import ball_of_rating
 
 #: The rule of the ball diameter without a load rating: its factor, its exponent, and the lead over the diameter from
 #: which on the ball grows no more. Least squares of the logarithms over the 44 rows shipped.

@@ -22,9 +22,8 @@ from ballscrew.basis.quantities import Force, Info, Length, Ratio, Stiffness
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import rigidity
-from ballscrew.physics.sizing.accuracy_factors import factor_of_make, factors_of_standard
 from ballscrew.physics.sizing.installation import Ends, Installation
-from ballscrew.physics.sizing.sources import Source
+from ballscrew.physics.sizing.rules import Source, factor_of_make, factors_of_standard
 from ballscrew.physics.solvers.load_distribution import pair_load_deflection, preload_of
 
 #: Outer diameters of nuts by DIN 69051-5, m, by nominal diameter: for leads below COARSE_LEAD, and from there on.
@@ -97,7 +96,7 @@ def rigidity_iso3408(
     bodies is taken, or else that of DIN 69051-5 for the ``nominal_diameter`` (m), by default the pitch circle
     (:func:`usual_nut_outer_diameter`). ``accuracy_factor`` is f_ar, by the accuracy grade, by default that of the
     installation, or else that of the ``make`` of the nut where it is known
-    (:mod:`~ballscrew.physics.sizing.accuracy_factors`); without it R_nu,ar is NaN, and the drive has R_nu. The shaft
+    (:mod:`~ballscrew.physics.sizing.rules`); without it R_nu,ar is NaN, and the drive has R_nu. The shaft
     is that of ``installation``; ``distance_to_bearing`` (m) is from the nut to the bearing that holds the shaft, by
     default where the shaft gives way most: its whole length held at one end, half of it held at both. The contact
     angle stays that without load.

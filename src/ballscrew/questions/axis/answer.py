@@ -42,8 +42,8 @@ from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
+from ballscrew.questions.shared.elements_text import element_lines
 from ballscrew.questions.shared.envelope import envelope
-from ballscrew.questions.shared.text_tables import element_lines
 
 #: Places within the travel that the terminal shows.
 SHOWN = 5

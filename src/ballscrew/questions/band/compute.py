@@ -17,7 +17,7 @@ from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.makers_rules import make_of
+from ballscrew.cases.case_files.named_calibration import make_of
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.cases.schema.case_schema import LAWS
 from ballscrew.engine.evaluation.comparison import Candidate
@@ -26,7 +26,7 @@ from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.engine.uncertainty.bands import Band, BandCurve
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal
-from ballscrew.engine.uncertainty.sampling import Joint, JointParts, JointSamples, sobol_sequence
+from ballscrew.engine.uncertainty.monte_carlo import Joint, JointParts, JointSamples, sobol_sequence
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, calibrations, is_of_maker
 from ballscrew.physics.friction.law_names import coefficients

@@ -38,7 +38,7 @@ from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.cases.case_files.uncertain_inputs import GIVEN, Uncertain
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.bands import BandCurve, Interval, OutputBand
-from ballscrew.engine.uncertainty.one_at_a_time import Swing, one_at_a_time
+from ballscrew.engine.uncertainty.sensitivity import Swing, one_at_a_time
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band.compute import BandReport

@@ -14,9 +14,9 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantities_of
 from ballscrew.basis.records import Record, Severity, documents
-from ballscrew.cases.case_files import case_file, descriptions, nut_tables, provenance
+from ballscrew.cases.case_files import case_file, descriptions, inputs, nut_tables
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.schema.option_faults import OPTIONS, in_options
+from ballscrew.cases.schema.law_import import OPTIONS, in_options
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_of
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
@@ -24,9 +24,9 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.check_table import half_loads
 from ballscrew.physics.sizing.checks import Check, all_hold, checks, judged, verdict_at_point
-from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
+from ballscrew.physics.sizing.rules import speed_limit_of
 from ballscrew.questions.check.options import flags
 from ballscrew.questions.run import answer as run
 from ballscrew.questions.run.answer import RunResults, results
@@ -38,7 +38,7 @@ from ballscrew.questions.shared.declared import response, with_answers
 from ballscrew.questions.shared.envelope import numbers
 from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of
 from ballscrew.questions.shared.own_screws import tables_of_row
-from ballscrew.questions.warm_up.answer import with_self_heating
+from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
@@ -405,7 +405,7 @@ def _document(checked: Checked) -> dict[str, Any]:
         "verdicts": documents(checked.verdicts),
         "assumed": list(checked.assumed),
         "warnings": documents(checked.run.warnings),
-        "provenance": provenance.of_case(case),
+        "provenance": inputs.of_case(case),
     }
 
 

@@ -29,9 +29,8 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.spelling import THOUSANDS
 from ballscrew.cases.schema.case_schema import LAWS, name_of_law
 from ballscrew.engine.evaluation.comparison import Comparison, Row
-from ballscrew.physics.friction.plausibility import IMPLAUSIBLE
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
-from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.physics.friction.validity import IMPLAUSIBLE, NUT_REASONS
 from ballscrew.questions.compare.compute import models_without_nut, percent, verdicts, warnings
 from ballscrew.questions.shared.charts import colour_of
 

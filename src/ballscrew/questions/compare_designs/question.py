@@ -37,7 +37,7 @@ def _models(request: Request, options: CompareOptions) -> Work:
     """The comparison of models and laws on one case."""
     from ballscrew.questions.compare.compute import comparison, document
     from ballscrew.questions.compare.sheet import sheet
-    from ballscrew.questions.warm_up.answer import with_self_heating
+    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     case = request.load()
 

@@ -39,8 +39,7 @@ from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.uncertainty.sobol import Estimate
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.condition import condition
-from ballscrew.evidence.service.condition_parts import Part
-from ballscrew.evidence.service.condition_values import Condition, State
+from ballscrew.evidence.service.condition_values import Condition, Part, State
 from ballscrew.files.torque_logs import reading, torque_series
 from ballscrew.files.torque_logs.torque_series import quantities
 from ballscrew.physics.components.materials import TEMPERATURE

@@ -46,7 +46,7 @@ from ballscrew.questions.duty.parts import PhaseNumbers
 from ballscrew.questions.duty.verdicts import verdicts, warnings
 from ballscrew.questions.shared.check_lines import check_table
 from ballscrew.questions.shared.declared import parts_of
-from ballscrew.questions.shared.text_tables import element_lines
+from ballscrew.questions.shared.elements_text import element_lines
 
 if TYPE_CHECKING:  # loads xarray
     from ballscrew.questions.duty.band import DutyBandReport

@@ -35,11 +35,10 @@ from ballscrew.basis.output.sheet import (
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.records import documents
 from ballscrew.basis.references import documentation, keys_in
-from ballscrew.cases.case_files import case_file, provenance
+from ballscrew.cases.case_files import case_file, inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.moving_logs import reading
-from ballscrew.evidence.moving_logs.linear_model import NAMES
 from ballscrew.evidence.moving_logs.motion_fit import (
     LINEAR,
     POWER,
@@ -50,6 +49,7 @@ from ballscrew.evidence.moving_logs.motion_fit import (
     fit_motion,
 )
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.evidence.moving_logs.screw_model import NAMES
 from ballscrew.questions.fit_motion.options import FitMotionOptions
 from ballscrew.questions.shared.declared import attributes
 from ballscrew.questions.shared.option_values import assignments
@@ -125,11 +125,11 @@ def document(case: Case, motion_fit: MotionFit) -> dict[str, Any]:
         "rows": _rows_document(motion_fit),
         "inputs": case_file.inputs(case),
         "provenance": {
-            **provenance.of_case(case),
+            **inputs.of_case(case),
             "log": name,
             "sha256": digest,
             "settings": settings,
-            "references": list(dict.fromkeys([*provenance.references(case), *own])),
+            "references": list(dict.fromkeys([*inputs.references(case), *own])),
         },
     }
 

@@ -10,7 +10,7 @@ from ballscrew.basis.output.sheet import Axis, Chart, Curve, Number, Sheet, Tabl
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.version import __version__
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
-from ballscrew.evidence.moving_logs.steady_rows import SteadyFriction, steady_friction
+from ballscrew.evidence.moving_logs.power_law import SteadyFriction, steady_friction
 
 _SPEED = Quantity("speed", "m/s", Info("v", "speed", "mm/s"))
 _NUMBERS = ("forward", "backward", "friction", "std", "offset")

@@ -13,8 +13,7 @@ from pydantic import Field
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.cases.case_files.case import Case
-from ballscrew.exports.export import Export, Option, WorstError
-from ballscrew.exports.targets import TARGETS, options_of
+from ballscrew.exports.export import TARGETS, Export, Option, WorstError, options_of
 from ballscrew.questions.shared.answer_parts import Closed, Tables
 from ballscrew.questions.shared.declared import from_attributes, parts_like, response
 from ballscrew.questions.shared.envelope import envelope

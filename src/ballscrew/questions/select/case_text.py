@@ -11,7 +11,7 @@ from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files.case_file import ASIDE, ESTIMATES
 from ballscrew.cases.case_files.named_calibration import NO_CALIBRATION, with_calibration
-from ballscrew.cases.case_files.named_files import moved
+from ballscrew.cases.case_files.opened_file import moved
 from ballscrew.cases.schema.case_schema import sections
 from ballscrew.cases.screw_tables.catalogue import assumed_fields
 from ballscrew.physics.components.operating_state import OperatingState

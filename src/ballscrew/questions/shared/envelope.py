@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ballscrew.basis.records import Record, documents
-from ballscrew.cases.case_files import case_file, provenance
+from ballscrew.cases.case_files import case_file, inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.shared import declared
 
@@ -37,7 +37,7 @@ def envelope(
         "warnings": documents(warnings),
         "verdicts": documents(verdicts),
         "checks": list(checks),
-        "provenance": {**provenance.of_case(case), **(sources or {})},
+        "provenance": {**inputs.of_case(case), **(sources or {})},
     }
 
 

@@ -20,7 +20,7 @@ from ballscrew.engine.uncertainty.band_evaluation import Values, faults_of_optio
 from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
 from ballscrew.engine.uncertainty.bands import ENDS, INNER_LEVELS, NUT_SAMPLES, SAMPLES, inner_end, with_ends
 from ballscrew.engine.uncertainty.distributions import Distribution, scaled
-from ballscrew.engine.uncertainty.sampling import Joint
+from ballscrew.engine.uncertainty.monte_carlo import Joint
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.band import compute
 from ballscrew.questions.band.compute import LEVEL

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 from ballscrew.basis.quantities import (
@@ -19,8 +19,7 @@ from ballscrew.basis.quantities import (
     fields_of,
 )
 from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import case_file, duty_tables
-from ballscrew.questions.shared import declared
+from ballscrew.cases.case_files import duty_tables
 from ballscrew.questions.shared.answer_parts import Assumed, Open, Tables, field
 from ballscrew.questions.shared.envelope import envelope
 from ballscrew.questions.warm_up import verdicts
@@ -28,7 +27,6 @@ from ballscrew.questions.warm_up.compute import AT_START, PLACE, Equilibrium, He
 
 if TYPE_CHECKING:
     from ballscrew.questions.warm_up.band import WarmUpBandReport
-    from ballscrew.questions.warm_up.self_heating import SelfHeating
 
 _Places = Annotated[Sequence[float], Unit("m"), PLACE.info]
 _GROWTH = Info(r"\Delta L", "growth there", "um")
@@ -199,17 +197,3 @@ class BesideWarmUp(Assumed):
     """What is assumed, and the bands where they are asked for."""
 
     band: WarmUpBands = field(optional=True)
-
-
-def with_self_heating(document: Mapping[str, Any], heating: SelfHeating | None) -> dict[str, Any]:
-    """A document with the numbers of self-heating; its inputs are those of the case as it was given."""
-    if heating is None:
-        return dict(document)
-    return {
-        **document,
-        "inputs": case_file.inputs(heating.given),
-        "results": {**document.get("results", {}), "self_heating": declared.document(heating.numbers)},
-        "units": {**document.get("units", {}), "self_heating": declared.units(heating.numbers)},
-        "assumed": [*document.get("assumed", ()), *heating.assumed],
-        "verdicts": [*documents(heating.records), *document["verdicts"]],
-    }

@@ -13,7 +13,7 @@ from ballscrew.axis.duty_cycle.duty import Duty, cycle
 from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.motion.states import Numbers
-from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL, Network
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.axis.thermal.warm_up import WarmUp, warm_up

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium
+from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium, steady_heat
 from ballscrew.axis.thermal.friction_map import friction_map
-from ballscrew.axis.thermal.steady_heat import steady_heat
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError

@@ -10,7 +10,7 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis import units
 from ballscrew.basis.records import Record
 from ballscrew.physics.friction import starvation
-from ballscrew.physics.friction.plausibility import implausible
+from ballscrew.physics.friction.validity import implausible
 from ballscrew.questions.warm_up.compute import AT_END, AT_START, PLACE, SERIES, WarmUpReport
 
 if TYPE_CHECKING:  # its room of distributions is slow to import

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from ballscrew.evidence.papers.olaru2005.case import CHOICES, OIL, SCREW, Choice, models
 from ballscrew.evidence.papers.olaru2005.claims import Claim, claims
-from ballscrew.evidence.papers.olaru2005.closures import ClosureCheck, Reading, closure_checks
+from ballscrew.evidence.papers.olaru2005.closures import ClosureCheck, Reading, Repair, closure_checks, repairs
 from ballscrew.evidence.papers.olaru2005.curves import curves
-from ballscrew.evidence.papers.olaru2005.repairs import Repair, repairs
 from ballscrew.evidence.papers.olaru2005.verdicts import Finding, Verdict
 
 __all__ = [
