@@ -84,7 +84,7 @@ SHEET = {
 SHOW = """async (sheet) => {
   const { sheetPlace } = ballscrewModules["sheet.js"];
   globalThis.made ??= sheetPlace("made");
-  document.querySelector("#results").prepend(globalThis.made.place);
+  document.querySelector("#results").prepend(globalThis.made.head, globalThis.made.place);
   globalThis.made.show(sheet);
 }"""
 
@@ -97,11 +97,11 @@ def page(visit):
 
 
 def test_lines_and_tables(page):
-    assert page.locator("#made-sheet h3").inner_text() == "A sheet."
-    assert page.locator("#made-sheet .verdict").all_inner_texts() == ["The motor suffices.", "It falls."]
-    assert page.locator("#made-sheet .verdict.careful").all_inner_texts() == ["It falls."]
-    assert page.locator("#made-sheet p >> text=a_log.csv: 3 rows.").count() == 1  # the name of a file stays as it is
-    assert page.locator("#made-sheet .warning[data-record=warm]").inner_text() == "Beware: It is hot."
+    assert page.locator("#made-head h3").inner_text() == "A sheet."
+    assert page.locator("#made-head .verdict").all_inner_texts() == ["The motor suffices.", "It falls."]
+    assert page.locator("#made-head .verdict.careful").all_inner_texts() == ["It falls."]
+    assert page.locator("#made-head p >> text=a_log.csv: 3 rows.").count() == 1  # the name of a file stays as it is
+    assert page.locator("#made-head .warning[data-record=warm]").inner_text() == "Beware: It is hot."
     assert not page.locator("#made-sheet details >> text=An assumption.").is_visible()
     rows = page.locator("#made-sheet > div table tbody tr")
     texts = [[cell.inner_text() for cell in row.locator("th, td").all()] for row in rows.all()]

@@ -3,12 +3,17 @@
 /** Results. @type {Record<string, string>} */
 export const RESULTS = {
   back_driving_efficiency: "efficiency, load drives",
+  ball_to_ball_force: "force between balls",
   drive_torque: "drive torque",
   efficiency: "efficiency, screw drives",
   friction_angle: "friction angle ρ of the thread",
   friction_coefficient: "friction coefficient µ of the thread",
   friction_power: "heat",
   holding_torque: "holding torque",
+  largest_contact_load: "normal load",
+  maximum_pressure: "greatest pressure",
+  minimum_film_parameter: "least film parameter λ",
+  minimum_film_thickness: "least film thickness",
   preload_drag: "drag torque, with seals where given",
   screw_torque: "friction torque",
 };

@@ -30,6 +30,14 @@ const FIRST = /** @type {const} */ ([
   "friction_power",
   "preload_drag",
 ]);
+/** Results of the ball whose contacts are worst. */
+const OF_BALL = /** @type {const} */ ([
+  "maximum_pressure",
+  "largest_contact_load",
+  "minimum_film_parameter",
+  "minimum_film_thickness",
+  "ball_to_ball_force",
+]);
 /** Results of the table of contacts. */
 const OF_CONTACT = /** @type {const} */ ([
   "maximum_pressure",
@@ -191,6 +199,7 @@ export function show(answer, { band, checks }, isWanted = () => true) {
   if (wants("numbers")) showResults(answer, known, band !== null);
   if (wants("rules")) update(byId("rules"), ...words.rules.map((one) => element("p", { class: "small" }, one)));
   if (wants("vendor-rows")) showVendorRows(answer);
+  if (wants("ball-numbers")) showBall(answer);
   if (wants("contacts")) showContacts(answer, warnings.filter(isOfContact));
   if (wants("assumed")) showAssumptions(answer);
   if (wants("band-words")) showBand(answer, band);
@@ -225,6 +234,22 @@ function showResults(answer, known, isBanded) {
     );
   });
   update(byId("numbers"), element("dl", {}, ...rows));
+}
+
+/** The numbers of the most loaded ball. @param {Run} answer */
+function showBall(answer) {
+  const { screw, nut } = answer.results;
+  /** @type {Numbers} */
+  const numbers = {
+    ...answer.results,
+    maximum_pressure: greatestPressure(answer),
+    minimum_film_parameter: leastFilm(answer),
+    minimum_film_thickness: Math.min(screw.minimum_film_thickness ?? NaN, nut.minimum_film_thickness ?? NaN),
+  };
+  const rows = OF_BALL.filter((name) => Number.isFinite(numbers[name])).map((name) =>
+    element("div", {}, element("dt", {}, RESULTS[name]), element("dd", {}, data(name, numbers[name]))),
+  );
+  update(byId("ball-numbers"), element("dl", {}, ...rows));
 }
 
 /**

@@ -32,8 +32,8 @@ const NARROW = 3;
 const CLASSES = { plain: "", verdict: "verdict", warning: "warning", small: "small" };
 
 /**
- * A place for sheets: ``show`` shows one, and shows it again in other units. Charts keep their places from one sheet to the
- * next.
+ * Places for sheets: the ``head`` has the title and the verdicts, which stand above the form of the question, the ``place``
+ * the rest. ``show`` shows one, and shows it again in other units. Charts keep their places from one sheet to the next.
  *
  * @param {string} id begins the ids of its charts
  * @param {Beside} [beside]
@@ -41,6 +41,7 @@ const CLASSES = { plain: "", verdict: "verdict", warning: "warning", small: "sma
 export function sheetPlace(id, beside = () => undefined) {
   /** Charts with their titles, by the ids of their places. @type {Map<string, HTMLElement>} */
   let figures = new Map();
+  const head = element("div", { class: "sheet-head", id: `${id}-head` });
   const place = element("div", { class: "sheet", id: `${id}-sheet` });
 
   /** @param {string} name @param {Block} block */
@@ -56,7 +57,9 @@ export function sheetPlace(id, beside = () => undefined) {
     figures = new Map();
     /** @type {[string, Block][]} */
     const charts = [];
-    const contents = blocks.flatMap((block) => {
+    const verdicts = blocks.filter(isOfVerdicts);
+    const others = blocks.filter((block) => !isOfVerdicts(block));
+    const contents = others.flatMap((block) => {
       if (!CHARTS.includes(block.kind)) return contentOf(block, beside);
       const first = `${id}-chart-${slug(block.title)}`;
       const name = figures.has(first) ? `${first}-${charts.length}` : first; // two of one title
@@ -65,11 +68,17 @@ export function sheetPlace(id, beside = () => undefined) {
       charts.push([name, block]);
       return figure;
     });
-    place.replaceChildren(element("h3", {}, sentence(title)), ...contents);
+    head.replaceChildren(element("h3", {}, sentence(title)), ...verdicts.flatMap(({ lines }) => lines.map(lineOf)));
+    place.replaceChildren(...contents);
     for (const [name, block] of charts) draw(name, block);
   }
 
-  return { place, show };
+  return { head, place, show };
+}
+
+/** Test whether a block is the verdicts of a sheet. @param {Block} block */
+function isOfVerdicts({ kind, lines }) {
+  return kind === "lines" && lines.some((/** @type {Line} */ line) => line.kind === "verdict");
 }
 
 /** What is shown of a block that is no chart. @param {Block} block @param {Beside} beside @returns {HTMLElement[]} */

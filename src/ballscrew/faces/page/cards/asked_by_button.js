@@ -62,6 +62,7 @@ export function setUp(holder) {
   const chosen = {};
   const page = documented(PAGES[name], HOW_TO[name] ?? name);
   holder.replaceChildren(
+    asked.head,
     element("p", { class: "small" }, `${ABOUT[name] ?? name} `, page),
     optionFields(name, options, chosen, () => follow()),
     element("p", { class: "card-start" }, start),

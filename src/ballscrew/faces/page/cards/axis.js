@@ -48,7 +48,7 @@ export function setUp(holder) {
       return undefined;
     },
   });
-  holder.replaceChildren(picture, editor, command, asked.line, problems, asked.result);
+  holder.replaceChildren(asked.head, picture, editor, command, asked.line, problems, asked.result);
 
   /** @param {import("../fields.js").Change} change */
   function onChange({ path = "", text: typed = "", unit }) {

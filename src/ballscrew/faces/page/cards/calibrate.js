@@ -79,7 +79,7 @@ export function setUp(holder) {
     drop.use(logs[0]);
     free = numbers; // the log has friction that the balls alone do not explain
   });
-  holder.replaceChildren(drop.zone, example, inspected, fit.line, problems, actions, fit.result);
+  holder.replaceChildren(fit.head, drop.zone, example, inspected, fit.line, problems, actions, fit.result);
   fit.resume((about) => {
     fittedCase = about.fitted;
   });

@@ -36,7 +36,7 @@ export function setUp(holder) {
     address: "condition",
     place: (faults) => {
       problems.replaceChildren(...faultLines(faults));
-      asked.result.hidden = faults.length > 0; // what other tests told is no answer below a fault
+      asked.head.hidden = asked.result.hidden = faults.length > 0; // what other tests told is no answer below a fault
       return undefined;
     },
     isLarge: () => true,
@@ -62,6 +62,7 @@ export function setUp(holder) {
   /** @type {import("./option_fields.js").Given} */
   const chosen = {};
   holder.replaceChildren(
+    asked.head,
     zone.zone,
     list,
     example,

@@ -37,7 +37,7 @@ export function setUp(holder) {
   });
   const recorded = element("p", { class: "card-start" });
   const begin = element("div", {}, examples(vocabulary.starts), recorded, note);
-  holder.replaceChildren(begin, editor, asked.line, asked.result);
+  holder.replaceChildren(asked.head, begin, editor, asked.line, asked.result);
 
   /** Sections of the case, with those of the example where it has none. @type {Tables} */
   let tables = {};

@@ -65,6 +65,7 @@ export function setUp(holder) {
     asked.follow(body(), 0);
   });
   holder.replaceChildren(
+    asked.head,
     asks,
     element(
       "fieldset",

@@ -41,6 +41,7 @@ const RESUMED = "job ";
  */
 export function question({ address, result: own, beside, show, place, isLarge = () => false, isShort = false, about }) {
   const sheet = own ? undefined : sheetPlace(address, beside);
+  const head = element("div", { hidden: true }, sheet?.head);
   const result = own ?? element("div", { class: "card-result", hidden: true }, sheet?.place);
   /** @type {any} */
   let answer;
@@ -80,7 +81,7 @@ export function question({ address, result: own, beside, show, place, isLarge = 
   /** @param {boolean} isBusy @param {boolean} isEarlier */
   function mark(isBusy, isEarlier) {
     result.setAttribute("aria-busy", String(isBusy));
-    result.classList.toggle("earlier", isEarlier && answered !== "");
+    for (const place of [head, result]) place.classList.toggle("earlier", isEarlier && answered !== "");
   }
 
   /** @param {object | undefined} body nothing of one that is not on the page any more @param {number} start */
@@ -189,7 +190,7 @@ export function question({ address, result: own, beside, show, place, isLarge = 
       answered = key;
       shown(found);
       if (sheet) show?.(found);
-      result.hidden = false;
+      result.hidden = head.hidden = false;
       line.replaceChildren();
       mark(false, false);
     } catch (error) {
@@ -238,9 +239,9 @@ export function question({ address, result: own, beside, show, place, isLarge = 
     showAgain();
     if (!answered || asked || answered.startsWith(RESUMED)) return;
     const isEarlier = JSON.stringify(body) !== answered;
-    result.classList.toggle("earlier", isEarlier);
+    for (const place of [head, result]) place.classList.toggle("earlier", isEarlier);
     line.replaceChildren(...(isEarlier ? [element("p", {}, earlier())] : []));
   }
 
-  return { line, result, follow, compare, resume, stop, showAgain };
+  return { head, line, result, follow, compare, resume, stop, showAgain };
 }

@@ -26,7 +26,7 @@ export function setUp(holder) {
     address: "service",
     place: (faults) => {
       problems.replaceChildren(...faultLines(faults));
-      asked.result.hidden = faults.length > 0; // what another log told is no answer below a fault
+      asked.head.hidden = asked.result.hidden = faults.length > 0; // what another log told is no answer below a fault
       return undefined;
     },
     isLarge: () => true,
@@ -52,6 +52,7 @@ export function setUp(holder) {
   const chosen = {};
   const more = optionFields("service", options, chosen, () => follow());
   holder.replaceChildren(
+    asked.head,
     ...zones.map(({ zone }) => zone),
     example,
     labelled(tolerance, "share of the preload that may be lost", "%", start),

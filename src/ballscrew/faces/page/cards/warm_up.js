@@ -46,7 +46,7 @@ export function setUp(holder) {
     },
     place: (faults) => placeFaults(editor, faults),
   });
-  holder.replaceChildren(note, editor, asked.line, asked.result);
+  holder.replaceChildren(asked.head, note, editor, asked.line, asked.result);
 
   /** @type {Tables} */
   let tables = {};
