@@ -1,4 +1,14 @@
-"""Random screws, half of them with numbers that no screw has, through all models: as arrays and one by one."""
+"""Random screws, half of them with numbers that no screw has, through all models: as arrays and one by one.
+
+Screws, oils and operating points drawn from all that is sold and a little more; in every second thousand numbers are
+replaced by zero, negative, tiny, huge, infinite or NaN. The three models on arrays; one in 50 also by the constructors,
+one by one.
+
+*Wrong*: an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, an
+efficiency that is not finite where the screw drives the load, or a number elsewhere, a negative part (of the torque as
+printed, else of the dissipated power), or power in that is not power lost to 1e-9 (corrected, reference); a point valid
+in an array that the constructor refuses, or whose torque differs from that alone by more than 1e-9.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +18,7 @@ from typing import Any
 
 import numpy as np
 from benchmarks.hostile import workers
-from benchmarks.hostile.tally import Outcome, Tally
+from benchmarks.hostile.tally import Outcome
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import InputError
@@ -20,18 +30,6 @@ from ballscrew.physics.friction.result import FrictionResult
 from support.strategies import MODELS, Case, box
 
 COUNT, SECONDS = 100_000, 90.0
-TRIED = (
-    "screws, oils and operating points drawn from all that is sold and a little more; in every second thousand numbers "
-    "are replaced by zero, negative, tiny, huge, infinite or NaN. The three models on arrays; one in 50 also by the "
-    "constructors, one by one"
-)
-WRONG = (
-    "an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, an "
-    "efficiency that is not finite where the screw drives the load, or a number elsewhere, a negative "
-    "part (of the torque as printed, else of the dissipated power), or power in that is not power lost to 1e-9 "
-    "(corrected, reference); a point valid in an array that the "
-    "constructor refuses, or whose torque differs from that alone by more than 1e-9"
-)
 
 SIZE, ALONE = 1000, 50
 #: Relative: of a sum, and of numbers added in another order.
@@ -41,11 +39,6 @@ STRANGE = np.array([0.0, -0.0, -1.0, 0.5, 1.0, 1e-300, 1e-30, 1e-12, 1e6, 1e30, 
 TORQUES = ("screw_torque", "nut_torque", "ideal_torque", "drive_torque", "friction_power")
 
 Mask = NDArray[np.bool_]
-
-
-def run(tally: Tally, seed: int) -> None:
-    """Try random screws."""
-    workers.run(attempt, tally, seed, SIZE)
 
 
 def attempt(seed: int, number: int, size: int) -> Outcome:

@@ -1,4 +1,13 @@
-"""Damaged stores of sweeps: checked, resumed, and compared with an undamaged one."""
+"""Damaged stores of sweeps: checked, resumed, and compared with an undamaged one.
+
+Kinds of damage, each on a finished store and on one with 12 of 21 blocks: every kind of file removed, cut, emptied,
+extended, flipped, zeroed, exchanged, replaced by a folder, a link and a link to nothing; locks, other plans, formats,
+models and folders; files of a sibling store in their places, by kind and at random, as a partial copy leaves them. Then
+`bs.verify`, and the same sweep again (of a finished store with and without `verify=True`).
+
+*Wrong*: a store with changed files that `bs.verify` calls good; numbers after the sweep, or read from it, that are not
+those of the undamaged store; an exception other than `InputError` or a stopped sweep in a line.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +25,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from benchmarks.hostile import workers
-from benchmarks.hostile.tally import Outcome, Tally
+from benchmarks.hostile.tally import Outcome
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
@@ -26,18 +35,6 @@ from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from support.stores import MODEL, SMALL, files
 
 SECONDS = 300.0
-TRIED = (
-    "kinds of damage, each on a finished store and on one with 12 of 21 blocks: every kind of file removed, cut, "
-    "emptied, "
-    "extended, flipped, zeroed, exchanged, replaced by a folder, a link and a link to nothing; locks, other plans, "
-    "formats, "
-    "models and folders; files of a sibling store in their places, by kind and at random, as a partial copy leaves "
-    "them. Then `bs.verify`, and the same sweep again (of a finished store with and without `verify=True`)"
-)
-WRONG = (
-    "a store with changed files that `bs.verify` calls good; numbers after the sweep, or read from it, that are not "
-    "those of the undamaged store; an exception other than `InputError` or a stopped sweep in a line"
-)
 
 OWN = ".ballscrew"
 #: Points of 12 of the 21 blocks.
@@ -328,11 +325,6 @@ def undamaged() -> tuple[Path, xr.Dataset]:
         with contextlib.suppress(KeyboardInterrupt):
             bs.sweep(MODEL, SCREW, OIL, to=folder / f"{prefix}unfinished", done=stop, **asked)
     return folder, numbers
-
-
-def run(tally: Tally, seed: int) -> None:
-    """Try all kinds of damage."""
-    workers.run(attempt, tally, seed)
 
 
 def attempt(_: int, number: int, __: int) -> Outcome:
