@@ -123,9 +123,7 @@ def picture() -> Figure:
             own = np.array([point.bearing == bearing.name for point in points()])
             panel.plot(lam[own], values[own], marker, markersize=4, linestyle="none", label=bearing.name)
         panel.axhline(1.0, color=charts.GREY, linewidth=0.8)
-        panel.set_xscale("log")
-        panel.set_xlabel("film parameter λ")
-        panel.set_title(words)
+        panel.set(xscale="log", xlabel="film parameter λ", title=words)
         panel.legend()
     np.ravel(panels)[0].set_ylabel("this model / bearing maker's")
     return figure

@@ -16,10 +16,10 @@ from effect_study.cases import CASES, CATALOGUE, RPM, effects, sensitivities
 def write(folder: Path) -> None:
     """Figures as SVG and PNG, tables as Markdown."""
     folder.mkdir(parents=True, exist_ok=True)
-    cases = figures.drawn_cases()
+    cases = CASES
     with charts.house_style():
-        for plot in (*figures.PLOTS, *law_figures.PLOTS):
-            charts.save_as(plot.draw(cases), folder / f"{plot.name}.svg", "svg")
+        for name, draw in {**figures.DRAWN, **law_figures.DRAWN}.items():
+            charts.save_as(draw(cases), folder / f"{name}.svg", "svg")
     for case in cases.values():
         (folder / f"steps_{case.name}.md").write_text(steps_table(case), encoding="utf-8")
     (folder / "sensitivities.md").write_text(sensitivity_table(), encoding="utf-8")

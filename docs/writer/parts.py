@@ -12,7 +12,6 @@ from kept import ROOT, Kept, Record
 #: What makes each part. A name with a suffix is a file, else it is a folder.
 PARTS = {
     "validation": "validation_tables:write",
-    "calibration": "calibration_pages:write",
     "nuts": "nut_tables:write",
     "accuracy.md": "accuracy_table:page",
     "olaru2005": "ballscrew.questions.reproduce.reproduction:reproduce_olaru2005",
@@ -21,7 +20,7 @@ PARTS = {
     "uncertainty": "uncertainty_tables:write",
     "warm_up": "warm_up_tables:write",
     "starvation": "starvation_tables:write",
-    "sensitivity": "sensitivity_figures:write",
+    "calibration_example.txt": "calibration_example",
     "errata.md": "errata_page:page",
     "bearings": "bearing_comparison:write",
     "api": "api_tables:write",
