@@ -1,13 +1,11 @@
 """How fast a screw warms up: transients of a preloaded nut, against the model itself as right-hand side, in one run.
 
-``python benchmarks/warm_up.py`` prints a table, ``--json`` one object; ``--many 1000`` runs that many surroundings
-instead of 50, ``--processes 2`` on two processors. The nut is a double one of the catalogue with 3.5 kN, the duty to
-and fro at 1000 rpm over half a metre, four hours.
+``python benchmarks/warm_up.py`` prints a table, ``--json`` one object. The nut is a double one of the catalogue with
+3.5 kN, the duty to and fro at 1000 rpm over half a metre, four hours.
 
 - ``first``: the first transient of a duty, with the map of its friction.
 - ``transient``: the next ones, with other surroundings.
 - ``steady``: the steady state alone.
-- ``many``: transients one by one, in all and extrapolated to a thousand.
 - ``band``: a thousand transients for a band, side by side (``bs.warm_up_band``), on one processor.
 - ``plain``: the same four hours with the model called at every right-hand side; temperatures of both are compared.
 """
@@ -18,7 +16,6 @@ import dataclasses
 import functools
 import math
 import statistics
-from concurrent.futures import ProcessPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -83,26 +80,7 @@ def transient(surroundings: bs.Surroundings) -> WarmUp:
     return found
 
 
-def drawn(number: int) -> list[bs.Surroundings]:
-    """Other surroundings: what is the least known, within its factors."""
-    draw = np.random.default_rng(1)
-    return [
-        dataclasses.replace(
-            AIR,
-            ball_conductance=4.6 * 3 ** draw.uniform(-1, 1),
-            shaft_convection=34.0 * 2 ** draw.uniform(-1, 1),
-            nut_conductance=10.0 * 2 ** draw.uniform(-1, 1),
-            shaft_share=draw.uniform(0.3, 0.7),
-        )
-        for _ in range(number)
-    ]
-
-
-def _end(surroundings: bs.Surroundings) -> float:
-    return float(transient(surroundings).nut_temperature[-1])
-
-
-def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
+def measured(rounds: int) -> dict[str, float]:
     """All times in seconds, and ratios."""
 
     def timed(work: Any, rounds: int = rounds) -> float:
@@ -113,11 +91,6 @@ def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
     found["transient"] = timed(lambda: transient(AIR))
     found["map"] = timed(lambda: state_maps.__wrapped__(duty()))
     found["steady"] = timed(lambda: bs.steady_heat(duty(), AIR))
-    with ProcessPoolExecutor(processes) as pool:
-        chunk = max(1, many // (4 * processes))
-        run = functools.partial(pool.map, chunksize=chunk) if processes > 1 else map
-        found["many"] = seconds(lambda: list(run(_end, drawn(many))))
-    found["thousand"] = 1000 * found["many"] / many
     found["band"] = seconds(lambda: bs.warm_up_band(duty(), AIR, samples=1000))
     ours = functools.partial(warm_up, duty(), AIR, time=HOURS, outputs=2)
     short, last = timed(ours), ours()
@@ -126,9 +99,9 @@ def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
     return found | {"plain": took, "plain_calls": calls, "plain_over_ours": took / short, "difference": difference}
 
 
-#: Asked for, s: a transient, and a thousand of them on two processors.
-LIMITS = {"transient": (0.3, False), "thousand": (180.0, False)}
+#: Asked for, s.
+LIMITS = {"transient": (0.3, False)}
 
 if __name__ == "__main__":
-    given = asked(__doc__, many=50, processes=1, rounds=5)
-    told(measured(given.many, given.processes, given.rounds), given.json, LIMITS)
+    given = asked(__doc__, rounds=5)
+    told(measured(given.rounds), given.json, LIMITS)
