@@ -141,7 +141,7 @@ def test_all_the_page_shows_is_written(page, tmp_path, monkeypatch):
 def test_the_numbers_of_the_pages_are_those_that_are_made(page, monkeypatch):
     """All on a page are known, and all known ones stand on a page: none is computed for nothing."""
     monkeypatch.syspath_prepend(str(ROOT / "docs"))
-    others = [importlib.import_module(name) for name in ("validation_tables", "theory_numbers")]
+    others = [importlib.import_module(name) for name in ("validation_tables", "theory_numbers", "errata_page")]
     made = {name for each in (page, *others) for name in each.numbers()}
     texts = [path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")]
     shown = {name for text in texts for name in re.findall(r"<!--= (\w+)-->", text)}
