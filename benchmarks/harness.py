@@ -15,14 +15,14 @@ from typing import Any
 ROOT = Path(__file__).parents[1]
 #: What is asked for of figures: their bound, and whether it is a lower one.
 Limits = Mapping[str, tuple[float, bool]]
-#: Loaded tests have oracles, random parts and clients that benchmarks share.
+# the contact integral and the scripts that run node are those of the tests
 sys.path.append(str(ROOT / "tests"))
 
 
 def asked(words: str, **options: Any) -> argparse.Namespace:
-    """The arguments of a benchmark, by their defaults: a flag by False, choices by a list, a word by its type.
+    """The arguments of a benchmark by their defaults, and ``--json``.
 
-    ``--json`` is always there.
+    False makes a flag, a list the choices of an option that may be repeated, a type an option without a default.
     """
     parser = argparse.ArgumentParser(description=words, formatter_class=argparse.RawDescriptionHelpFormatter)
     for name, default in {"json": False, **options}.items():

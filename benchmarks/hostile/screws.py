@@ -13,7 +13,7 @@ in an array that the constructor refuses, or whose torque differs from that alon
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -23,9 +23,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import fields_of
-from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import settled
-from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.result import FrictionResult
 from support.strategies import MODELS, Case, box
 
@@ -67,26 +65,22 @@ def strange(case: Case, rng: np.random.Generator) -> Case:
         new = np.where(rng.random(size) < 0.5, rng.choice(STRANGE, size), values * 10 ** rng.uniform(-12, 12, size))
         return np.where(rng.random(size) < 0.06, new, values)
 
+    return changed(case, replaced)
+
+
+def changed(case: Case, change: Callable[[Any], Any]) -> Case:
+    """The case with all its arrays changed."""
+
     def part(given: Any) -> Any:
         arrays = {n: getattr(given, n) for n in fields_of(given) if isinstance(getattr(given, n), np.ndarray)}
-        return dataclasses.replace(given, **{name: replaced(values) for name, values in arrays.items()})
+        return dataclasses.replace(given, **{name: change(values) for name, values in arrays.items()})
 
-    return Case(part(case.screw), part(case.oil), replaced(case.axial_load), replaced(case.screw_speed))
+    return Case(part(case.screw), part(case.oil), change(case.axial_load), change(case.screw_speed))
 
 
 def some(case: Case, which: Any) -> Case:
     """Points of a case: an index array makes arrays, a number a case of numbers that constructors have checked."""
-
-    def part(given: Any) -> Any:
-        arrays = {n: getattr(given, n) for n in fields_of(given) if isinstance(getattr(given, n), np.ndarray)}
-        return dataclasses.replace(given, **{name: taken(values) for name, values in arrays.items()})
-
-    def taken(values: Any) -> Any:
-        return values[which] if np.ndim(which) else float(values[which])
-
-    screw: BallScrew = part(case.screw)
-    oil: Lubricant = part(case.oil)
-    return Case(screw, oil, taken(case.axial_load), taken(case.screw_speed))
+    return changed(case, lambda values: values[which] if np.ndim(which) else float(values[which]))
 
 
 def checked(name: str, case: Case, which: NDArray[np.int_]) -> tuple[Mask, dict[int, str]]:
