@@ -193,10 +193,8 @@ screenshots: $(READY)
 
 bench: $(READY)
 	$(BIN)/python benchmarks/engine.py
-	$(BIN)/python benchmarks/sweep.py
 	$(BIN)/python benchmarks/reference.py
 	$(BIN)/python benchmarks/four_point.py
-	$(BIN)/python benchmarks/loads.py
 
 # random, mutated and damaged input for up to 25 minutes; fewer by SCALE=0.01. Writes the table of docs/reliability.md
 SCALE ?= 1

@@ -31,6 +31,7 @@ from ballscrew.physics.laws.friction import (
 )
 from ballscrew.physics.laws.inlet import Inlet, flooded_inlet
 from ballscrew.physics.laws.nut_losses import ReturnBraking, ShearedOil, SpinUp
+from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute
 
 #: The sets that the calibrations are fitted to, and a column of each that is a maximum and no band.
@@ -132,7 +133,6 @@ def trends_table() -> str:
     """Mean ratio, scatter and trends of each law, as Markdown: ratio ∝ d₀ ^ exponent, and P_h/d₀ ^ exponent."""
     of_set = ("mean ratio", "over d₀", "over P_h/d₀")
     lines = [["friction", *(f"{name}: {words}" for name in FITTED for words in of_set)]]
-    lines.append(["---"] * len(lines[0]))
     for words, model in LAWS.items():
         cells: list[str] = []
         for name in FITTED:
@@ -142,7 +142,7 @@ def trends_table() -> str:
             cells.append(f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}")
             cells += [f"{exponents[each]:+.2f}".replace("-", "−") for each in ("size", "steepness")]
         lines.append([words, *cells])
-    return _markdown(lines)
+    return markdown_table(lines[0], lines[1:])
 
 
 class _OfNuts:
@@ -226,30 +226,25 @@ def changes_table() -> str:
                     groups.setdefault(f"{data.maker}, {point.group}", []).append(point.ratio)
         if not lines:
             lines = [["change", *(f"{group} ({len(ratios)})" for group, ratios in groups.items())]]
-            lines.append(["---"] * len(lines[0]))
         scatters = {group: f" ± {np.std(r, ddof=1):.2f}" if len(r) > 1 else "" for group, r in groups.items()}
         lines.append([words, *(f"{np.mean(ratios):.2f}{scatters[group]}" for group, ratios in groups.items())])
-    return _markdown(lines)
+    return markdown_table(lines[0], lines[1:])
 
 
 def strata_table() -> str:
     """Mean ratio, scatter and share in band of the rows of each size, as they are and calibrated, as Markdown."""
     models = {"uncalibrated": REFERENCE}
     models |= {name: calibrated(REFERENCE, one) for name, one in calibrations().items()}
-    lines = [["rows", "number", *models], ["---"] * (2 + len(models))]
+    lines = [["rows", "number", *models]]
     for name in FITTED:
         found = [points(name, lambda _, model=model: model) for model in models.values()]
         for words, (low, high) in {**CLASSES, "all": (0.0, math.inf)}.items():
             strata = [[point for point in of_model if low <= point.descriptors["size"] < high] for of_model in found]
             lines.append([f"{name}, {words}", str(len(strata[0])), *map(_judged, strata)])
-    return _markdown(lines)
+    return markdown_table(lines[0], lines[1:])
 
 
 def _judged(found: Sequence[Point]) -> str:
     ratios = [point.ratio for point in found]
     share = np.mean([bool(point.in_band) for point in found])
     return f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}, {share:.0%}".replace("%", " %")
-
-
-def _markdown(lines: Sequence[Sequence[str]]) -> str:
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)

@@ -1,7 +1,7 @@
 """What a caller sees of the engine: a whole sweep against its kernel, a second call, one point; in one run.
 
-``python benchmarks/caller.py`` prints a table, ``--json`` one object. All that is compared is measured in turn, round
-after round; ratios and times are medians over the rounds.
+``python benchmarks/caller.py`` prints a table, ``--json`` one object, ``--fresh`` the first sweep of a process alone.
+All that is compared is measured in turn, round after round; ratios and times are medians over the rounds.
 
 - ``of_kernel``: the rate of ``bs.sweep`` of `olaru2005()` (load, speed and viscosity vary, seven outputs) in units of
   that of its kernel alone, into memory that was written to before. The caller drops each dataset before the next call.
@@ -17,14 +17,12 @@ after round; ratios and times are medians over the rounds.
 
 from __future__ import annotations
 
-import argparse
 import functools
-import json
 import resource
 import statistics
 import subprocess
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
@@ -36,14 +34,14 @@ from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from engine import OPERATION, OUTPUTS, drawn
-from timing import seconds
+from harness import Limits, asked, in_turn, ratio, seconds, told
 
 ROUNDS = 7
 MODELS = ("olaru2005", "reference")
 CALLS = 2000
 
 #: What is asked for: (bound, is it a lower bound).
-LIMITS: dict[str, tuple[float, bool]] = {
+LIMITS: Limits = {
     "of_kernel": (0.7, True),
     "second_ms": (10.0, False),
     "point_us": (20.0, False),
@@ -53,11 +51,6 @@ LIMITS: dict[str, tuple[float, bool]] = {
 def faults() -> int:
     """The page faults of this process so far."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-
-
-def ratio(times: Mapping[str, list[float]], above: str, below: str) -> float:
-    """The median over the rounds of one time over another of the same round."""
-    return statistics.median(one / other for one, other in zip(times[above], times[below], strict=True))
 
 
 def large_sweep(points: int) -> dict[str, float]:
@@ -128,12 +121,11 @@ def small_calls(name: str) -> dict[str, float]:
     work: dict[str, tuple[Callable[[], None], int]] = {
         "first": (first, 1), "second": (sweep, 10), "point": (point, CALLS), "model": (call, 20),
     }  # fmt: skip
-    times: dict[str, list[float]] = {key: [] for key in work}
     sweep()
     point()
-    for _ in range(ROUNDS):
-        for key, (do, calls) in work.items():
-            times[key].append(seconds(lambda do=do, calls=calls: [do() for _ in range(calls)]) / calls)
+    often = {key: lambda do=do, calls=calls: [do() for _ in range(calls)] for key, (do, calls) in work.items()}
+    times = in_turn(often, ROUNDS)
+    times = {key: [each / work[key][1] for each in found] for key, found in times.items()}
     return {
         "first_s": statistics.median(times["first"]),
         "second_ms": 1e3 * statistics.median(times["second"]),
@@ -173,28 +165,9 @@ def fresh(name: str) -> dict[str, float]:
     return {"import_s": imported, "fresh_s": swept, "without_dask_s": without}
 
 
-def main() -> None:
-    """Measure, and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.add_argument("--points", type=lambda text: int(float(text)), default=10_000_000, help="(default: 10^7)")
-    parser.add_argument("--fresh", action="store_true", help="the first sweep of a process alone")
-    options = parser.parse_args()
+if __name__ == "__main__":
+    options = asked(__doc__, points=10_000_000, fresh=False)
     found = {name: fresh(name) for name in MODELS}
     if not options.fresh:
         found = {"sweep": large_sweep(options.points), **{n: found[n] | small_calls(n) for n in MODELS}}
-    if options.json:
-        print(json.dumps({**found, "limits": LIMITS}, indent=1))
-        return
-    for case, figures in found.items():
-        for name, value in figures.items():
-            bound = ""
-            if name in LIMITS:
-                limit, lower = LIMITS[name]
-                met = value >= limit if lower else value <= limit
-                bound = f"  required: {'at least' if lower else 'at most'} {limit:g}  {'met' if met else 'MISSED'}"
-            print(f"{case:10s} {name:20s} {value:12.4g}{bound}")
-
-
-if __name__ == "__main__":
-    main()
+    told(found, options.json, LIMITS)

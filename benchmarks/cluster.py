@@ -7,12 +7,8 @@ alone and of two that share the disk.
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
-import json
-import resource
 import statistics
-import sys
 import tempfile
 import time
 from pathlib import Path
@@ -26,8 +22,7 @@ from ballscrew.engine.sweeps import cluster
 from ballscrew.engine.sweeps.store import Store
 from ballscrew.engine.sweeps.store_plan import Blocks
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-
-sys.path.insert(0, str(Path(__file__).parent))
+from harness import asked, megabytes, told
 from out_of_core import OUTPUTS, axes
 
 #: Empty tasks under way.
@@ -64,11 +59,6 @@ def timed_block(store: Store, number: int) -> tuple[float, float]:
     return evaluated - start, written - evaluated
 
 
-def memory() -> float:
-    """Peak memory of this process in MB."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
-
-
 def blocks(client: Any, store: Store, workers: list[str], numbers: range) -> list[tuple[float, float]]:
     """Blocks done by these workers, one at a time each."""
     sent = client.scatter(store, broadcast=True, hash=False)
@@ -81,12 +71,7 @@ def blocks(client: Any, store: Store, workers: list[str], numbers: range) -> lis
 
 def main() -> None:
     """Measure, and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--points", type=float, default=2e7, help="points of the store (default: 2e7)")
-    parser.add_argument("--tasks", type=int, default=20_000, help="empty tasks (default: 20 000)")
-    parser.add_argument("--folder", type=Path, help="where the stores go (default: a temporary folder)")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    options = parser.parse_args()
+    options = asked(__doc__, points=2e7, tasks=20_000, folder=Path)
     points = int(options.points)
     model = bs.FrictionModel.olaru2005()
     plan = Plan.of(Configuration(model, SCREW, OIL), OUTPUTS, axes(points))
@@ -100,7 +85,7 @@ def main() -> None:
         store.own.mkdir(parents=True)
         store.pending(new=store.begin())
         workers = list(client.nthreads())
-        before = list(client.run(memory).values())
+        before = list(client.run(megabytes).values())
         tasks = tasks_per_second(client, store, options.tasks)
         count = store.blocks.count // 2
         blocks(client, store, workers, range(2))  # compiled
@@ -124,14 +109,10 @@ def main() -> None:
             "Mpoint_per_s": plan.total / seconds / 1e6,
             "disk_MB_per_s": kept / seconds / 1e6,
             "worker_idle_memory_MB": max(before),
-            "worker_memory_MB": max(client.run(memory).values()),
+            "worker_memory_MB": max(client.run(megabytes).values()),
             "engine": evaluation.engine,
         }
-    if options.json:
-        print(json.dumps(figures, indent=1))
-        return
-    for title, value in figures.items():
-        print(f"{title:28s} {value:12.4g}" if isinstance(value, float) else f"{title:28s} {value!s:>12s}")
+    told(figures, options.json)
 
 
 if __name__ == "__main__":

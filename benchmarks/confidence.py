@@ -13,14 +13,10 @@ asked. Other work on the machine counts against it.
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
-import json
 import math
 import sys
-import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -30,8 +26,9 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.papers.olaru2005 import SCREW
 from ballscrew.questions.band import compute
+from harness import ROOT, asked, first_and_then, told
 
-CASE = Path(__file__).parents[1] / "examples" / "olaru2005.toml"
+CASE = ROOT / "examples" / "olaru2005.toml"
 MODELS: dict[str, Callable[[], bs.FrictionModel]] = {
     "olaru2005": bs.FrictionModel.olaru2005,
     "corrected": bs.FrictionModel.corrected,
@@ -48,8 +45,6 @@ TRUE = {"boundary_friction_coefficient": 0.11, "constant_torque": 0.03}
 NOISE, DRIFT, OUTLIERS = 0.01, 0.02, 0.03
 OIL = bs.Lubricant(viscosity=0.1)
 RPM = 2 * math.pi / 60
-#: How often something warm is timed; the median counts.
-TIMES = 5
 
 
 def log(model: bs.FrictionModel, rows: int, seed: int) -> dict[str, NDArray[np.float64]]:
@@ -68,23 +63,13 @@ def log(model: bs.FrictionModel, rows: int, seed: int) -> dict[str, NDArray[np.f
     return {"axial_load": load, "screw_speed": sign * speed, "torque": torque, "time": 3600 * hours}
 
 
-def seconds(work: Callable[[], Any]) -> tuple[float, float]:
-    """How long the first call takes, and the median of later ones."""
-    times: list[float] = []
-    for _ in range(1 + TIMES):
-        start = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - start)
-    return times[0], float(np.median(times[1:]))
-
-
 def measured(name: str, samples: int, rows: int, seeds: int) -> dict[str, Any]:
     """The figures of a model."""
     model = MODELS[name]()
     case = case_file.build(case_file.read(CASE), name, CASE.parent)
     columns = log(model, rows, 0)
-    first_band, warm_band = seconds(lambda: compute.band(case, compute.BandOptions(samples=samples)))
-    first_fit, warm_fit = seconds(lambda: bs.fit(model, SCREW, OIL, columns, list(TRUE)))
+    first_band, warm_band = first_and_then(lambda: compute.band(case, compute.BandOptions(samples=samples)))
+    first_fit, warm_fit = first_and_then(lambda: bs.fit(model, SCREW, OIL, columns, list(TRUE)))
     return {
         "band": {"first_s": first_band, "s": warm_band},
         "fit": {"first_s": first_fit, "s": warm_fit},
@@ -106,39 +91,17 @@ def coverage(model: bs.FrictionModel, seeds: int) -> dict[str, float]:
 
 def main() -> None:
     """Measure, print, judge."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.add_argument("--model", choices=list(MODELS), action="append", help="only this one; may be repeated")
-    parser.add_argument("--samples", type=int, default=SAMPLES, help="of the band")
-    parser.add_argument("--rows", type=int, default=ROWS, help="of the log that the fit is timed with")
-    parser.add_argument("--seeds", type=int, default=SEEDS, help="logs for the coverage; 0 leaves it out")
-    options = parser.parse_args()
-    found: dict[str, Any] = {}
+    options = asked(__doc__, model=list(MODELS), samples=SAMPLES, rows=ROWS, seeds=SEEDS)
+    found = {n: measured(n, options.samples, options.rows, options.seeds) for n in options.model or MODELS}
     missed: list[str] = []
-    if not options.json:
-        print(f"{'':10s} {'':>12s} {'first':>8s} {'then':>8s}   asked")
-    for name in options.model or MODELS:
-        found[name] = measured(name, options.samples, options.rows, options.seeds)
-        lines = {"band": (options.samples, "samples", BAND), "fit": (options.rows, "rows", FIT)}
-        for what, (count, unit, limit) in lines.items():
-            figures = found[name][what]
-            slowest = figures["first_s"] if what == "fit" else figures["s"]
-            missed += [f"{name} {what}"] if slowest >= limit else []
-            if not options.json:
-                times = f"{figures['first_s']:7.2f}s {figures['s']:7.3f}s"
-                print(f"{name:10s} {what:>12s} {times}   < {limit:g} s for {count} {unit}")
-        for number, share in found[name]["coverage"].items():
-            missed += (
-                [] if options.seeds < JUDGED or COVERED[0] <= share <= COVERED[1] else [f"{name} coverage of {number}"]
-            )
-            if not options.json:
-                print(f"{name:10s} {'coverage':>12s} {share:17.1%}   {COVERED[0]:.0%} to {COVERED[1]:.0%}  {number}")
-        sys.stdout.flush()
-    if options.json:
-        print(json.dumps({**found, "missed": missed}, indent=1))
-    elif missed:
-        print(f"missed: {', '.join(missed)}")
-    sys.exit(1 if missed else 0)
+    for name, figures in found.items():
+        # the first band of a process compiles
+        slowest = {"band": (figures["band"]["s"], BAND), "fit": (figures["fit"]["first_s"], FIT)}
+        missed += [f"{name} {what}" for what, (taken, limit) in slowest.items() if taken >= limit]
+        judged = figures["coverage"].items() if options.seeds >= JUDGED else ()
+        missed += [f"{name} coverage of {what}" for what, share in judged if not COVERED[0] <= share <= COVERED[1]]
+    told({**found, "missed": missed or "none"}, options.json)
+    sys.exit(bool(missed))
 
 
 if __name__ == "__main__":

@@ -13,10 +13,7 @@ Memory is the largest of the process until then, so that the first figure has th
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
-import resource
 from typing import Any
 
 import numpy as np
@@ -24,7 +21,7 @@ import numpy as np
 import ballscrew as bs
 from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.motion.trajectory import Trajectory
-from timing import seconds
+from harness import asked, megabytes, seconds, told
 
 MODEL = bs.FrictionModel.reference()
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=3500.0))
@@ -70,11 +67,6 @@ def of_the_model(points: int) -> float:
     return seconds(work) * points / PLAIN
 
 
-def megabytes() -> float:
-    """Largest memory of the process so far, MB."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-
-
 def measured(cycles: int) -> dict[str, dict[str, Any]]:
     """Times by name."""
     rows: dict[str, dict[str, Any]] = {}
@@ -93,22 +85,7 @@ def measured(cycles: int) -> dict[str, dict[str, Any]]:
     return rows
 
 
-def main() -> None:
-    """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--json", action="store_true")
-    parser.add_argument("--cycles", type=int, default=100_000)
-    options = parser.parse_args()
-    rows = measured(options.cycles)
-    if options.json:
-        print(json.dumps(rows))
-        return
-    print(f"{'':10} {'first':>8} {'again':>8} {'plain':>9} {'ratio':>7} {'memory':>9}")
-    for name, row in rows.items():
-        ratio = row["plain"] / row["again"]
-        times = f"{row['first']:7.2f}s {row['again']:7.2f}s {row['plain']:8.1f}s"
-        print(f"{name:10} {times} {ratio:6.1f}x {row['memory']:6.0f} MB")
-
-
 if __name__ == "__main__":
-    main()
+    options = asked(__doc__, cycles=100_000)
+    rows = measured(options.cycles)
+    told({name: {**row, "ratio": row["plain"] / row["again"]} for name, row in rows.items()}, options.json)

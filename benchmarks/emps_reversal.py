@@ -1,6 +1,6 @@
 """Friction of the EMPS axis over its travel after it turns round, and what the model has for a screw like its own.
 
-``python benchmarks/emps_reversal.py DATA_EMPS.mat`` prints tables, ``--json`` one object. The record is not in the
+``python benchmarks/emps_reversal.py --file DATA_EMPS.mat`` prints a table. The record is not in the
 repository, as its licence is not stated (docs/howto/moving_log.md says where it is).
 
 Position and force are filtered alike at 150 Hz. Mass, offset and a steady law F_0 + c |v|^n are fitted to what lies
@@ -14,11 +14,8 @@ mass or a time that is a little off makes newtons (``off`` below); the speed ris
 
 from __future__ import annotations
 
-import argparse
 import itertools
-import json
 import math
-import sys
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +23,8 @@ from scipy import optimize, signal
 
 import ballscrew as bs
 from ballscrew.evidence.moving_logs.reading import read_moving
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import asked, told
 
 LEAD = 2.5e-3
 CUTOFF = 150.0
@@ -162,10 +161,7 @@ def computed() -> tuple[np.ndarray, np.ndarray]:
 
 def main() -> None:
     """Evaluate, and print."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("file", help="DATA_EMPS.mat")
-    parser.add_argument("--json", action="store_true")
-    arguments = parser.parse_args()
+    arguments = asked(__doc__, file="DATA_EMPS.mat")
     motion = filtered(arguments.file)
     steady = steady_of(motion)
     rows = table(motion, steady)
@@ -178,24 +174,16 @@ def main() -> None:
         other = filtered(arguments.file, late) if late else motion
         for row, off in zip(rows, table(other, steady, mass), strict=True):
             row[name] = off["friction_N"] - row["friction_N"]
-    told = {"reversals": len(reversals(motion)), "steady": steady._asdict(), "rows": rows}
-    if arguments.json:
-        print(json.dumps(told))
-        return
-    print(
-        f"{told['reversals']} reversals; {', '.join(f'{name} {value:.4g}' for name, value in told['steady'].items())}"
-    )
+    told({"reversals": len(reversals(motion)), **steady._asdict()}, arguments.json)
     headings = ["travel [µm]", "screw [°]", "friction [N]", "±", "steady [N]", "inertia [N]", "back", "computed", *OFF]
-    lines = [headings]
+    lines: list[list[str]] = []
     for row in rows:
         numbers = [f"{row[name]:.1f}" for name in ("angle_deg", "friction_N", "spread_N", "steady_N", "inertia_N")]
         shares = [f"{row[name]:.0%}" for name in ("swing_back", "computed_back")]
         offs = [f"{row[name]:+.1f}" for name in OFF]
         lines.append([f"{row['from_um']:.0f} to {row['to_um']:.0f}", *numbers, *shares, *offs])
-    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
-    for line in lines:
-        print("  ".join(cell.rjust(width) for cell, width in zip(line, widths, strict=True)))
+    print(markdown_table(headings, lines), end="")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

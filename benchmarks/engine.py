@@ -4,7 +4,8 @@
 round after round, so that what else the machine does falls on all sides alike; ratios are medians over the rounds.
 The figure of a case is the worse of those at a million and at ten million points.
 
-- ``A``: `olaru2005()`, load, speed and viscosity vary; seven outputs.
+- ``A``: `olaru2005()`, load, speed and viscosity vary; seven outputs. ``vs_numpy_engine`` is against the engine by
+  NumPy alone.
 - ``B``: `olaru2005()`, all 22 numbers it depends on vary; seven outputs.
 - ``cartesian``: A on a grid of loads, speeds and viscosities.
 - ``reference``: `reference()` with the inputs and outputs of A, against the model itself on whole arrays.
@@ -17,7 +18,6 @@ nothing with them.
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import statistics
@@ -40,6 +40,8 @@ from ballscrew.engine.evaluation.derivatives import slopes_of
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import Limits, asked, in_turn, ratio, told
 from script import OUTPUTS, formulas_on_arrays
 
 SIZES = (1_000_000, 10_000_000)
@@ -80,13 +82,13 @@ WHOLE = ("loaded_balls",)
 #: The twelve inputs that the gradient is taken by.
 BY = tuple(name for name in RANGES if name not in WHOLE)[:12]
 
-#: What is asked for, at least; ``over_value`` at most.
-LIMITS: dict[str, dict[str, float]] = {
-    "A": {"vs_numpy": 20, "of_memory_limit": 0.40},
-    "B": {"vs_numpy": 12, "of_memory_limit": 0.30},
-    "cartesian": {"vs_numpy": 30},
-    "reference": {"vs_numpy": 10},
-    "gradient": {"over_value": 2},
+#: What is asked for.
+LIMITS: dict[str, Limits] = {
+    "A": {"vs_numpy": (20, True), "of_memory_limit": (0.40, True)},
+    "B": {"vs_numpy": (12, True), "of_memory_limit": (0.30, True)},
+    "cartesian": {"vs_numpy": (30, True)},
+    "reference": {"vs_numpy": (10, True)},
+    "gradient": {"over_value": (2, False)},
 }
 
 
@@ -151,12 +153,17 @@ def points_case(names: tuple[str, ...], points: int) -> Case:
     evaluation, results = ready(plan)
     letters = in_letters(values)
     expected = dict(zip(OUTPUTS, formulas_on_arrays(**{k: v[:100_000] for k, v in letters.items()}), strict=True))
+    numpy = Evaluation.of(plan, "numpy")
+    played = numpy.empty(points)
     work: dict[str, Callable[[], Any]] = {
         "memory": moving(len(names), len(OUTPUTS), points),
         "numpy": lambda: formulas_on_arrays(**letters),
+        "numpy_engine": lambda: numpy.fill(played, slice(0, points)),
         "engine": lambda: evaluation.fill(results, slice(0, points)),
     }
-    return Case(points, points, work, difference({n: v[:100_000] for n, v in results.items()}, expected))
+    numpy.fill(played, slice(0, points))
+    both = ({n: v[:100_000] for n, v in found.items()} for found in (results, played))
+    return Case(points, points, work, max(difference(found, expected) for found in both))
 
 
 def grid_case(points: int) -> Case:
@@ -255,61 +262,22 @@ def seconds(work: Callable[[], Any]) -> float:
 
 def measured(case: Case, rounds: int) -> dict[str, float]:
     """Ratios and rates of a case: medians over rounds in which everything is run in turn."""
-    times: dict[str, list[float]] = {name: [] for name in case.work}
-    for _ in range(rounds):
-        for name, work in case.work.items():
-            scale = case.points / case.numpy_points if name.startswith("numpy") else 1.0
-            times[name].append(scale * seconds(work))
-
-    def ratio(name: str) -> float:
-        return statistics.median(other / engine for other, engine in zip(times[name], times["engine"], strict=True))
-
+    scale = case.points / case.numpy_points
+    times = {
+        name: [scale * one if name.startswith("numpy") else one for one in found]
+        for name, found in in_turn(case.work, rounds, seconds).items()
+    }
+    rates = {name: case.points / statistics.median(times[name]) / 1e6 for name in ("engine", "memory")}
     figures = {
         "points": case.points,
-        "vs_numpy": ratio("numpy"),
-        "of_memory_limit": ratio("memory"),
-        "mpoints_per_s": case.points / statistics.median(times["engine"]) / 1e6,
-        "memory_mpoints_per_s": case.points / statistics.median(times["memory"]) / 1e6,
+        "vs_numpy": ratio(times, "numpy", "engine"),
+        "of_memory_limit": ratio(times, "memory", "engine"),
+        "mpoints_per_s": rates["engine"],
+        "memory_mpoints_per_s": rates["memory"],
         "agreement": case.agreement,
     }
-    for name in set(times) - {"numpy", "memory", "engine", "value"}:
-        figures[f"vs_{name}"] = ratio(name)
-    if "value" in times:
-        figures["over_value"] = 1 / ratio("value")
-    return figures
-
-
-def main() -> None:
-    """Measure, and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.add_argument("--markdown", action="store_true", help="print the table of docs/speed.md")
-    parser.add_argument(
-        "--points",
-        type=lambda text: int(float(text)),
-        action="append",
-        help="points; may be repeated (default: 10^6 and 10^7)",
-    )
-    parser.add_argument("--case", choices=list(CASES), action="append", help="only this case; may be repeated")
-    options = parser.parse_args()
-    found: dict[str, dict[str, Any]] = {}
-    for name in options.case or CASES:
-        by_points: dict[str, dict[str, float]] = {}
-        for points in options.points or SIZES:
-            if points <= LARGEST.get(name, points):
-                by_points[str(points)] = measured(CASES[name](points), ROUNDS.get(points, 5))
-        worst = {
-            key: min(f[key] for f in by_points.values()) for key in ("vs_numpy", "of_memory_limit", "mpoints_per_s")
-        }
-        if name == "gradient":
-            worst["over_value"] = max(f["over_value"] for f in by_points.values())
-        found[name] = {**worst, "by_points": by_points}
-        if not options.json and not options.markdown:
-            report(name, found[name])
-    if options.markdown:
-        print(table(found))
-    if options.json:
-        print(json.dumps({**found, "limits": LIMITS, "threads": processors()}, indent=1))
+    figures |= {f"vs_{name}": ratio(times, name, "engine") for name in times if name.startswith("numpy_")}
+    return figures | ({"over_value": ratio(times, "engine", "value")} if "value" in times else {})
 
 
 #: What the documentation calls the cases.
@@ -324,29 +292,40 @@ TITLES = {
 
 def table(found: Mapping[str, Any]) -> str:
     """The figures as a table: the worse of all sizes."""
-    lines = ["| case | Mpoint/s | against NumPy | of the memory's limit |", "| --- | --- | --- | --- |"]
-    for name, figures in found.items():
-        cells = f"{figures['mpoints_per_s']:.0f} | {figures['vs_numpy']:.0f} × | {figures['of_memory_limit']:.2f}"
-        lines.append(f"| {TITLES[name]} | {cells} |")
+    rows = [
+        (TITLES[name], f"{f['mpoints_per_s']:.0f}", f"{f['vs_numpy']:.0f} ×", f"{f['of_memory_limit']:.2f}")
+        for name, f in found.items()
+    ]
+    said = markdown_table(("case", "Mpoint/s", "against NumPy", "of the memory's limit"), rows)
     if "gradient" in found:
-        lines += [
-            "",
-            f"Value and 12 derivatives take {found['gradient']['over_value']:.2f} times as long as the value alone.",
-        ]
-    return "\n".join(lines)
+        over = found["gradient"]["over_value"]
+        said += f"\nValue and 12 derivatives take {over:.2f} times as long as the value alone.\n"
+    return said
 
 
-def report(name: str, figures: Mapping[str, Any]) -> None:
-    """A line for each size, and what is asked for."""
-    for points, row in figures["by_points"].items():
-        others = "  ".join(f"{key} {value:.3g}" for key, value in row.items() if key != "points")
-        print(f"{name:10s} {int(points):>10,d}  {others}")
-    for key, limit in LIMITS[name].items():
-        met = figures[key] <= limit if key == "over_value" else figures[key] >= limit
-        word = "at most" if key == "over_value" else "at least"
-        print(
-            f"{'':10s} {key} {figures[key]:.3g}, required: {word} {limit:g}  {'met' if met else 'MISSED'}", flush=True
-        )
+def main() -> None:
+    """Measure, and print; ``--markdown`` the table of docs/speed.md."""
+    options = asked(__doc__, markdown=False, points=0, case=list(CASES))
+    sizes = (options.points,) if options.points else SIZES
+    found: dict[str, dict[str, Any]] = {}
+    for name in options.case or CASES:
+        by_points = {
+            str(points): measured(CASES[name](points), ROUNDS.get(points, 5))
+            for points in sizes
+            if points <= LARGEST.get(name, points)
+        }
+        worst = {
+            key: min(f[key] for f in by_points.values()) for key in ("vs_numpy", "of_memory_limit", "mpoints_per_s")
+        }
+        if name == "gradient":
+            worst["over_value"] = max(f["over_value"] for f in by_points.values())
+        found[name] = {**worst, "by_points": by_points}
+        if not options.json and not options.markdown:
+            told({name: found[name]}, False, LIMITS[name])
+    if options.markdown:
+        print(table(found), end="")
+    if options.json:
+        print(json.dumps({**found, "threads": processors()}, indent=1))
 
 
 if __name__ == "__main__":

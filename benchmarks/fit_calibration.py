@@ -19,12 +19,10 @@ are of one number (:mod:`maker_calibrations`). Nothing else is fitted, and nothi
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import functools
 import json
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -40,17 +38,16 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.ball_chain import two_neighbours
 from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
+from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute
 from calibration_trends import CLASSES, FITTED, changes_table, strata_table, trends_table
+from harness import ROOT, asked
 from maker_calibrations import DECLARED_ROWS, line_of
 from maker_calibrations import FITS as MAKERS
 
 OBJECTIVE = "least squares of (model - middle) / half the band, every row with the same weight"
 START = (0.12, 0.0075)
-PAGE = Path(__file__).parents[1] / "docs" / "left_out.inc"
-CHANGES = PAGE.with_name("changes.inc")
-RATIOS = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "validation" / "ratios.csv"
-TOML = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "calibrations.toml"
+DATA = ROOT / "src" / "ballscrew" / "data"
 
 
 def entries(model: FrictionModel, on_four_contacts: FrictionModel | None = None) -> list[Entry]:
@@ -302,7 +299,7 @@ def left_out_table() -> str:
     groups: dict[str, Callable[[Entry, Point], bool]] = {name: _of_class(*ends) for name, ends in CLASSES.items()}
     groups |= {f"all of {name}": lambda entry, _, name=name: entry.data.name == name for name in FITTED}
     heading = ["left out", "calibration", "values of the fit without it", "rows", "predicted: mean ratio", "in band"]
-    lines = [heading, ["---"] * len(heading)]
+    lines: list[list[str]] = []
     for words, group in groups.items():
         for name, rival in DECLARED.items():
             found = fit(rival, lambda entry, point, group=group: not group(entry, point))
@@ -316,7 +313,7 @@ def left_out_table() -> str:
                     mean = f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}"
                     told_of = f"{words}, {entry.data.name}" if words in CLASSES else words
                     lines.append([told_of, name, values, str(len(told)), mean, f"{share:.0%}".replace("%", " %")])
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+    return markdown_table(heading, lines)
 
 
 def _shown(value: float) -> str:
@@ -344,7 +341,7 @@ def ratios_text(found: Mapping[str, Fit]) -> str:
 def rivals_table() -> str:
     """What other pairs and another objective would have given."""
     heading = ["fitted", "values", *(f"{name}: mean ratio, in band" for name in FITTED), "half bands off, rms"]
-    lines = [heading, ["---"] * len(heading)]
+    lines: list[list[str]] = []
     for rival in RIVALS:
         found = fit(rival)
         sets = rival.entries(*map(float, found.values))
@@ -356,37 +353,33 @@ def rivals_table() -> str:
         off = [in_half_bands(point) for entry in sets for point in entry.points]
         judged = [f"{e.mean_ratio:.3f} ± {e.std_ratio:.3f}, {e.share_in_band:.0%}".replace("%", " %") for e in sets]
         lines.append([rival.words, values, *judged, f"{np.sqrt(np.mean(np.square(off))):.3f}"])
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+    return markdown_table(heading, lines)
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
+#: Tables by the flag that prints them; the last two are stored in ``docs`` with ``--write``.
+TABLES: dict[str, Callable[[], str]] = {
+    "rivals": rivals_table,
+    "strata": strata_table,
+    "trends": trends_table,
+    "left_out": left_out_table,
+    "changes": changes_table,
+}
+STORED = "left_out", "changes"
+
+
+def main() -> None:
     """Print, and store what was asked for."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true", help="store the fit in data/calibrations.toml")
-    parser.add_argument("--rivals", action="store_true", help="other pairs beside it, as Markdown")
-    parser.add_argument("--left-out", action="store_true", help="rows left out and predicted, as Markdown")
-    parser.add_argument("--changes", action="store_true", help="one assumption changed at a time, as Markdown")
-    parser.add_argument("--strata", action="store_true", help="ratios of each size class, as Markdown")
-    parser.add_argument("--trends", action="store_true", help="other laws of friction beside it, as Markdown")
-    chosen = parser.parse_args(arguments)
-    tables = {"rivals": rivals_table, "strata": strata_table, "trends": trends_table}
-    for name, table in tables.items():
-        if getattr(chosen, name):
-            print(table(), end="")
-            return
-    pages = {"left_out": (left_out_table, PAGE), "changes": (changes_table, CHANGES)}
-    for name, (table, page) in pages.items():
-        if getattr(chosen, name):
-            text = table()
-            print(text, end="")
-            if chosen.write:
-                page.write_text(text, encoding="utf-8")
-            return
-    found = {name: fit(rival) for name, rival in DECLARED.items()}
-    print(toml_text(found), end="")
-    if chosen.write:
-        TOML.write_text(toml_text(found), encoding="utf-8")
-        RATIOS.write_text(ratios_text(found), encoding="utf-8")
+    options = asked(__doc__, write=False, **dict.fromkeys(TABLES, False))
+    if name := next((name for name in TABLES if getattr(options, name)), None):
+        text = TABLES[name]()
+        files = {ROOT / "docs" / f"{name}.inc": text} if name in STORED else {}
+    else:
+        found = {name: fit(rival) for name, rival in DECLARED.items()}
+        text = toml_text(found)
+        files = {DATA / "calibrations.toml": text, DATA / "validation" / "ratios.csv": ratios_text(found)}
+    print(text, end="")
+    for path, content in files.items() if options.write else ():
+        path.write_text(content, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,22 +1,12 @@
 """Slip on four contacts against the contact integral: how far apart, by how unlike the loads of the flanks are.
 
-``python benchmarks/four_point.py`` prints a table for people, ``--markdown`` the same for the documentation,
-``--json`` one object. The screws are those of ``benchmarks/reference.py``, with the contact load of each on one pair
-of flanks and a part of it on the other; dry friction of 0.1, nothing else resists.
+``python benchmarks/four_point.py`` prints a table, and a rate. The screws are of ``benchmarks/reference.py``, with
+the contact load of each on one pair of flanks and a part of it on the other; dry friction of 0.1, nothing else resists.
 """
 
 from __future__ import annotations
 
-import argparse
-import json
-import sys
-import time
-from collections.abc import Sequence
-from pathlib import Path
-
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))  # the contact integral is an oracle of theirs
 
 import ballscrew as bs
 from ballscrew.physics.equations import transmission
@@ -25,9 +15,11 @@ from ballscrew.physics.friction.validity import LARGEST_PRESSURE
 from ballscrew.physics.laws.conditions import Motion
 from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers.four_point_slip import FlankPair, FourPointBall, FourPointSlip, four_point_slip
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import asked, seconds, told
 from oracles.contact_integral import contact_integral
 from oracles.tractions import Coulomb
-from reference import DRY, Box, Numbers, box, dry, left_out
+from reference import DRY, ERRORS, Box, Numbers, box, dry, in_words, left_out, spread
 
 RATIOS = (1.0, 0.3, 0.1, 0.03, 0.01, 0.001)
 
@@ -56,7 +48,7 @@ def solve(cases: Box, ratio: float) -> FourPointSlip:
     return four_point_slip(ball)
 
 
-def row(cases: Box, used: Numbers, ratio: float) -> dict[str, float]:
+def row(cases: Box, used: Numbers, ratio: float) -> list[str]:
     """One line of the table."""
     result, load = solve(cases, ratio), contact_load(cases)
     torque = sum(result.contributions.values())
@@ -67,57 +59,30 @@ def row(cases: Box, used: Numbers, ratio: float) -> dict[str, float]:
     found = np.array([integral.converged for integral in integrals])
     truth = np.array([integral.slip_torque for integral in integrals])[found]
     error = torque[used][found] / truth - 1
-    return {
-        "ratio": ratio,
-        "n": len(error),
-        "without_balance": int(np.sum(~found)),
-        "settled": float(np.mean(result.converged[used])),
-        "median": float(np.median(np.abs(error))),
-        "p95": float(np.percentile(np.abs(error), 95)),
-        "largest": float(np.max(np.abs(error))),
-        "bias": float(np.median(error)),
-    }
+    settled = float(np.mean(result.converged[used]))
+    return [f"{ratio:g}", str(len(error)), f"{settled:.1%}", *in_words(spread(error))]
 
 
 def speed(repeats: int = 5) -> float:
     """Balls a second on arrays."""
-    cases, rates = box(50_000, 1), []
+    cases = box(50_000, 1)
     pairs = flank_pair(cases, contact_load(cases)), flank_pair(cases, 0.3 * contact_load(cases))
     frame = helix_frame(cases.screw)
     ball = FourPointBall(*pairs, 0.0, 0.0, cases.screw.ball_diameter, frame.lead_angle, frame.path_radius)
-    for _ in range(repeats):
-        start = time.perf_counter()
-        four_point_slip(ball)
-        rates.append(50_000 / (time.perf_counter() - start))
-    return float(np.median(rates))
+    return 50_000 / float(np.median([seconds(lambda: four_point_slip(ball)) for _ in range(repeats)]))
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Print what was asked for."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cases", type=int, default=600, help="random screws (default %(default)s)")
-    parser.add_argument("--seed", type=int, default=2005, help="of the random screws (default %(default)s)")
-    parser.add_argument("--json", action="store_true", help="one JSON object")
-    parser.add_argument("--markdown", action="store_true", help="the table for the documentation, without times")
-    chosen = parser.parse_args(arguments)
-    cases = box(chosen.cases, chosen.seed)
+def table(number: int, seed: int = 2005) -> str:
+    """The table for the documentation."""
+    cases = box(number, seed)
     heavier = flank_pair(cases, contact_load(cases))
     elastic = np.maximum(heavier.screw.maximum_pressure, heavier.nut.maximum_pressure) <= LARGEST_PRESSURE
     rows = [row(cases, np.flatnonzero(elastic), ratio) for ratio in RATIOS]
-    if chosen.json:
-        print(json.dumps({"rows": rows, "note": left_out(elastic), "balls_per_second": speed()}, indent=2))
-        return
-    print(f"**Slip torque on four contacts, dry friction of {DRY:g}, nothing else resists** ({left_out(elastic)})\n")
-    print("| load of one pair / other | cases | settled | median | 95 % within | largest | bias |")
-    print("| --- | --- | --- | --- | --- | --- | --- |")
-    for line in rows:
-        print(
-            f"| {line['ratio']:g} | {line['n']} | {line['settled']:.1%} | {line['median']:.2%} | {line['p95']:.2%} "
-            f"| {line['largest']:.1%} | {line['bias']:+.2%} |"
-        )
-    if not chosen.markdown:
-        print(f"\nfour contacts: {speed():.3g} balls/s")
+    title = f"**Slip torque on four contacts, dry friction of {DRY:g}, nothing else resists** ({left_out(elastic)})"
+    return f"{title}\n\n{markdown_table(('load of one pair / other', 'cases', 'settled', *ERRORS), rows)}"
 
 
 if __name__ == "__main__":
-    main()
+    options = asked(__doc__, cases=600, seed=2005)
+    print(table(options.cases, options.seed), end="")
+    told({"balls_per_second": speed()}, False)

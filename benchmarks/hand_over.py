@@ -1,13 +1,12 @@
 """Models handed over as C and as FMU: sizes, times, and how far they are from Python, for every preset and kind of nut.
 
-``python benchmarks/hand_over.py`` prints a table; ``--markdown`` the same for the documentation, ``--preset reference``
-one model only. It needs gcc, and Linux on x86-64 for the prebuilt interpreter. All points are random, in four
+``python benchmarks/hand_over.py`` prints a table, ``--preset reference`` that of one model. It
+needs gcc, and Linux on x86-64 for the prebuilt interpreter. All points are random, in four
 quadrants, at 10 to 80 °C and half to one and a half times the preload.
 """
 
 from __future__ import annotations
 
-import argparse
 import ctypes
 import subprocess
 import tempfile
@@ -22,7 +21,8 @@ from ballscrew.exports.hand_over import export_job
 from ballscrew.exports.programs import c99, fmu, interpreter, program_file
 from ballscrew.exports.programs.two_levels import two_levels
 from ballscrew.exports.subject import HandOver
-from timing import seconds
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import asked, seconds
 
 PRESETS = ("olaru2005", "corrected", "reference")
 NUTS = {
@@ -119,21 +119,6 @@ def rows(presets: tuple[str, ...], most: int) -> Iterator[tuple[str, ...]]:
             )  # fmt: skip
 
 
-def main() -> None:
-    """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--preset", choices=PRESETS)
-    parser.add_argument("--points", type=int, default=10_000)
-    parser.add_argument("--markdown", action="store_true")
-    options = parser.parse_args()
-    line = "| {} |".format if options.markdown else "{}".format
-    join = " | " if options.markdown else "  "
-    print(line(join.join(HEADINGS)))
-    if options.markdown:
-        print("|---" * len(HEADINGS) + "|")
-    for row in rows((options.preset,) if options.preset else PRESETS, options.points):
-        print(line(join.join(row)), flush=True)
-
-
 if __name__ == "__main__":
-    main()
+    options = asked(__doc__, preset=list(PRESETS), points=10_000)
+    print(markdown_table(HEADINGS, list(rows(options.preset or PRESETS, options.points))), end="")

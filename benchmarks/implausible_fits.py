@@ -9,31 +9,27 @@ case, a torque sensor whose zero is off in a log of one direction, seals that th
 
 from __future__ import annotations
 
-import argparse
 import math
 import re
-from pathlib import Path
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 
 import ballscrew as bs
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
-from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut
-from ballscrew.physics.components.screw import BallScrew
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import study
 
-PAGE = Path(__file__).parents[1] / "docs" / "implausible_fits.inc"
 MODEL = bs.FrictionModel.reference()
-OIL = Lubricant.from_grade("ISO VG 68", 308.15)
+OIL = bs.Lubricant.from_grade("ISO VG 68", 308.15)
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 RATING = float(ROW.dynamic_load_rating or math.nan)
 FRICTION, CONSTANT, PRELOAD = "boundary_friction_coefficient", "constant_torque", "nut.preload"
 ROWS, NOISE = 120, 0.01
-RPM = 2 * math.pi / 60
 #: The ranges in which nothing was said before the verdicts: of the coefficient, and of the constant torque in N m.
 BEFORE = {FRICTION: (0.0, 1.0), CONSTANT: (-50.0, 50.0), PRELOAD: (0.0, math.inf)}
-
 #: The range in the sentence of a verdict.
 OUTSIDE = re.compile(r"is (outside .+? to .+?) \(")
 
@@ -53,71 +49,48 @@ class Log(NamedTuple):
         """The columns in SI."""
         random = np.random.default_rng(7)
         load = random.uniform(*self.loads, ROWS)
-        speed = np.exp(random.uniform(math.log(10), math.log(600), ROWS)) * RPM
+        speed = np.exp(random.uniform(math.log(10), math.log(600), ROWS)) * 2 * math.pi / 60
         sign = np.where(np.arange(ROWS) % 2, -1.0, 1.0) if self.both else np.ones(ROWS)
-        torque = MODEL(self.screw(self.true), OIL, axial_load=load, screw_speed=speed).screw_torque
+        torque = MODEL(ROW.screw(nut=self.true), OIL, axial_load=load, screw_speed=speed).screw_torque
         measured = sign * torque * (1 + NOISE * random.standard_normal(ROWS)) + self.zero
         warm = np.full(ROWS, 308.15)
         return {"axial_load": load, "screw_speed": sign * speed, "friction_torque": measured, "temperature": warm}
 
-    def screw(self, nut: Nut) -> BallScrew:
-        """The screw with a nut."""
-        return ROW.screw(nut=nut)
-
     def fit(self) -> CalibratedModel:
         """The fit of the case's nut to the log."""
-        columns, screw = self.columns(), self.screw(self.case)
-        return bs.fit(MODEL, screw, OIL, columns, self.free, holdout=0.0, dynamic_load_rating=RATING)
+        screw = ROW.screw(nut=self.case)
+        return bs.fit(MODEL, screw, OIL, self.columns(), self.free, holdout=0.0, dynamic_load_rating=RATING)
 
 
-def _with_seals(torque: float) -> Nut:
-    return bs.DoubleNut(preload=3000.0, losses={"seals": bs.Seals(seal_torque=torque)})
-
-
+DOUBLE = bs.DoubleNut(preload=3000.0)
+SMALL_SEALS, SEALS = (bs.DoubleNut(3000.0, losses={"seals": bs.Seals(seal_torque=torque)}) for torque in (0.05, 0.9))
 LOGS = {
     "another nut": Log(
         "a double nut of 2 kN; the case has a single nut", bs.DoubleNut(preload=2000.0), bs.SingleNut(), (FRICTION,),
         loads=(500.0, 3000.0),
     ),
     "zero of the sensor": Log(
-        "zero off by -0.2 N m, forward only", _with_seals(0.05), bs.DoubleNut(preload=3000.0), (FRICTION, CONSTANT),
-        zero=-0.2, both=False,
+        "zero off by -0.2 N m, forward only", SMALL_SEALS, DOUBLE, (FRICTION, CONSTANT), zero=-0.2, both=False
     ),
     "seals left out": Log(
-        "wipers of 0.9 N m that the case does not have; no load", _with_seals(0.9), bs.DoubleNut(preload=3000.0),
-        (PRELOAD,), loads=(0.0, 0.0),
+        "wipers of 0.9 N m that the case does not have; no load", SEALS, DOUBLE, (PRELOAD,), loads=(0.0, 0.0)
     ),
 }  # fmt: skip
 
 
-def table() -> str:
-    """What was found and said, as Markdown."""
-    lines = ["| log | fault | fitted | before | verdict |", "| --- | --- | --- | --- | --- |"]
+def rows() -> Iterator[list[str]]:
+    """What was found and said."""
     for name, log in LOGS.items():
         found = log.fit()
+        said = {one.subject: f"implausible: {OUTSIDE.findall(one.text)[0]}" for one in found.verdict_records}
         for estimate in found.estimates.values():
             low, high = BEFORE[estimate.name]
             before = "nothing" if low <= estimate.value <= high else "a warning"
             unit = "" if estimate.quantity.unit == "1" else f" {estimate.quantity.unit}"
             value = f"{estimate.name.rpartition('.')[2].replace('_', ' ')} {estimate.value:.3g}{unit}"
-            said = "plausible"
-            for record in found.verdict_records:
-                if record.subject == estimate.name:
-                    said = f"implausible: {OUTSIDE.findall(record.text)[0]}"
-            lines.append(f"| {name} | {log.fault} | {value} | {before} | {said} |")
-    return "\n".join(lines) + "\n"
-
-
-def main() -> None:
-    """Fit, say, store."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true", help="store the table in the docs")
-    options = parser.parse_args()
-    found = table()
-    print(found, end="")
-    if options.write:
-        PAGE.write_text(found, encoding="utf-8")
+            yield [name, log.fault, value, before, said.get(estimate.name, "plausible")]
 
 
 if __name__ == "__main__":
-    main()
+    heading = ("log", "fault", "fitted", "before", "verdict")
+    study(__doc__, lambda: markdown_table(heading, list(rows())), "implausible_fits.inc")

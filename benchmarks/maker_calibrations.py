@@ -10,9 +10,7 @@ of JIS B 1192 for the sizes of ``rexroth-double-nut`` and its worked example. Bo
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -21,11 +19,12 @@ from ballscrew.evidence.validation.entries import Point, may_be_fitted
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.friction.calibrations import with_parameters
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute
+from harness import study
 
 #: Boundary friction and the force between balls of the reference model.
 BOUNDARY, SHARE = 0.12, 0.0075
-PAGE = Path(__file__).parents[1] / "docs" / "maker_calibrations.inc"
 
 
 class Row(NamedTuple):
@@ -155,25 +154,15 @@ def _judged(rows: Sequence[Row], share: float) -> list[str]:
 def table() -> str:
     """What each calibration predicts of rows that were left out of the fit, as Markdown."""
     heading = ["calibration", "left out", "F_B/Q of the fit", "rows", "predicted / stated"]
-    lines: list[list[str]] = [heading, ["---"] * len(heading)]
+    lines: list[list[str]] = []
     for name, fit in FITS.items():
         rows = fit.rows()
         lines += _left_out(name, rows)
         if name == "hiwin":
             share = line_of(rows).share
             lines.append([name, "the rows kept aside", f"{share:.3g}", *_judged(hiwin_rows(declared=False), share)])
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
-
-
-def main() -> None:
-    """Print the table, and store it where that was asked for."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true", help="store the table in docs/maker_calibrations.inc")
-    text = table()
-    print(text, end="")
-    if parser.parse_args().write:
-        PAGE.write_text(text, encoding="utf-8")
+    return markdown_table(heading, lines)
 
 
 if __name__ == "__main__":
-    main()
+    study(__doc__, table, "maker_calibrations.inc")

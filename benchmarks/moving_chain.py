@@ -8,11 +8,8 @@ grooves of its own each. Beside it the median of the law ``chain`` over the same
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import math
-from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,16 +20,16 @@ from ballscrew.physics.equations import ball_chain
 from ballscrew.physics.laws.ball_chain import WALL_FACTOR, ChainBallForce
 from ballscrew.physics.moving_balls.chain import MovingChain, chain_run, circuit_of
 from ballscrew.physics.moving_balls.loaded_zone import loaded_zone
-from timing import seconds
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import ROOT, asked, seconds
 
 OIL = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
 MODEL = bs.FrictionModel.reference()
 PRELOAD = 0.05
 GAPS, DEVIATIONS = (0.05, 1.05), (0.5e-6, 2e-6)
 QUANTILES = (0.1, 0.5, 0.9)
-PAGE = Path(__file__).parents[1] / "docs" / "moving_chain.inc"
 #: Columns that are of the machine.
-TIMES = slice(2, 4)
+TIMES = 2, 3
 
 
 class Draw(NamedTuple):
@@ -99,35 +96,23 @@ def row(name: str, speed: float, circuits: int, drawn: list[Draw], plain: bool) 
     ]
 
 
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
+HEADING = (
+    "size", "balls a circuit", f"s a steady state ({'' if available() else 'not '}compiled)", "s by NumPy",
+    "F_B/Q: 10 / 50 / 90 %", "law chain, median", "push of the return, N",
+    "its torque / torque of the reference, %",
+)  # fmt: skip
 
 
 def main() -> None:
-    """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--draws", type=int, default=8, help="random circuits of each size")
-    parser.add_argument("--circuits", type=int, default=2, help="circuits of each half of a nut")
-    parser.add_argument("--rpm", type=float, default=100.0, help="speed of the screw")
-    parser.add_argument("--plain", action="store_true", help="time a run without the compiler, too")
-    parser.add_argument("--write", action="store_true", help="write the table without the times into docs, too")
-    options = parser.parse_args()
+    """Print the table; ``--plain`` times a run without the compiler, ``--write`` stores it without times in docs."""
+    options = asked(__doc__, draws=8, circuits=2, rpm=100.0, plain=False, write=False)
     speed, drawn = options.rpm * 2 * math.pi / 60, draws(options.draws)
-    compiled = "compiled" if available() else "not compiled"
-    heading = [
-        "size", "balls a circuit", f"s a steady state ({compiled})", "s by NumPy", "F_B/Q: 10 / 50 / 90 %",
-        "law chain, median", "push of the return, N", "its torque / torque of the reference, %",
-    ]  # fmt: skip
-    rows = [heading, ["---"] * len(heading)]
-    print("\n".join(map(_line, rows)))
-    for name, listed in bs.catalogue().items():
-        if listed.nut == "double":
-            rows.append(row(name, speed, options.circuits, drawn, options.plain))
-            print(_line(rows[-1]), flush=True)
+    names = [name for name, listed in bs.catalogue().items() if listed.nut == "double"]
+    rows = [row(name, speed, options.circuits, drawn, options.plain) for name in names]
+    print(markdown_table(HEADING, rows), end="")
     if options.write:
-        for cells in rows:
-            del cells[TIMES]
-        PAGE.write_text("".join(f"{_line(cells)}\n" for cells in rows), encoding="utf-8")
+        kept = [[cell for i, cell in enumerate(cells) if i not in TIMES] for cells in (HEADING, *rows)]
+        (ROOT / "docs" / "moving_chain.inc").write_text(markdown_table(kept[0], kept[1:]), encoding="utf-8")
 
 
 if __name__ == "__main__":

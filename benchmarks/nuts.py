@@ -16,12 +16,8 @@ and olaru2005() beside it.
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
-import functools
-import json
 import statistics
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -31,7 +27,7 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.derivatives import slopes_of
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from timing import seconds
+from harness import asked, first_and_then, in_turn, ratio, seconds, told
 
 PRELOAD = 4326.0
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=PRELOAD))
@@ -63,36 +59,44 @@ def cloud(number: int, seed: int = 1) -> dict[str, Any]:
     return {name: xr.DataArray(rng.uniform(a[0], a[-1], number), dims="point") for name, a in grid(2).items()}
 
 
+def per_point(evaluations: dict[str, Evaluation], rounds: int) -> dict[str, list[float]]:
+    """Seconds a point of evaluations, in turn; a round before them warms up."""
+
+    def filled(e: Evaluation) -> Any:
+        return lambda: e.fill(e.empty(e.plan.total), slice(0, e.plan.total))
+
+    times = in_turn({name: filled(e) for name, e in evaluations.items()}, rounds + 1)
+    return {name: [one / e.plan.total for one in times[name][1:]] for name, e in evaluations.items()}
+
+
+def rates(found: dict[str, list[float]]) -> dict[str, float]:
+    """Compiled points a second, and their ratio to the model on arrays."""
+    return {
+        "points_per_second": 1 / statistics.median(found["compiled"]),
+        "over_numpy": ratio(found, "model", "compiled"),
+    }
+
+
+OUTPUTS = "screw_torque", "efficiency", "valid"
+
+
 def sweep(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
     """Rates of compiled points and of the model on arrays, and their ratio."""
-    outputs = ("screw_torque", "efficiency", "valid")
-    compiled = Evaluation.of(Plan.of(Configuration(model, SCREW, OIL), outputs, grid(SIDE)), "compiled")
-    arrays = Evaluation.of(Plan.of(Configuration(model, SCREW, OIL), outputs, cloud(OF_THE_MODEL)), "model")
-    ratios: list[float] = []
-    rates: list[float] = []
-    for _ in range(rounds):
-        fast, slow = (
-            seconds(lambda e=e: e.fill(e.empty(e.plan.total), slice(0, e.plan.total))) / e.plan.total
-            for e in (compiled, arrays)
-        )
-        ratios.append(slow / fast)
-        rates.append(1 / fast)
-    return {"points_per_second": statistics.median(rates), "over_numpy": statistics.median(ratios)}
+    subject = Configuration(model, SCREW, OIL)
+    points = {"compiled": grid(SIDE), "model": cloud(OF_THE_MODEL)}
+    return rates(per_point({e: Evaluation.of(Plan.of(subject, OUTPUTS, at), e) for e, at in points.items()}, rounds))
 
 
 def gradient(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
     """Time of value and derivatives, in units of that of the value."""
     subject, points = Configuration(model, SCREW, OIL), cloud(100_000)
     held = {name: xr.DataArray(np.full(100_000, subject.value_of(name)), dims="point") for name in BY[3:]}
-    value = Evaluation.of(Plan.of(subject, ("screw_torque",), points | held), "compiled")
-    slopes = Evaluation.of(slopes_of(subject, ("screw_torque",), BY, points | held), "compiled")
-    ratios: list[float] = []
-    for _ in range(rounds):
-        one, all_of_them = (
-            seconds(lambda e=e: e.fill(e.empty(e.plan.total), slice(0, e.plan.total))) for e in (value, slopes)
-        )
-        ratios.append(all_of_them / one)
-    return {"over_value": statistics.median(ratios)}
+    plans = {
+        "value": Plan.of(subject, ("screw_torque",), points | held),
+        "slopes": slopes_of(subject, ("screw_torque",), BY, points | held),
+    }
+    found = per_point({name: Evaluation.of(plan, "compiled") for name, plan in plans.items()}, rounds)
+    return {"over_value": ratio(found, "slopes", "value")}
 
 
 def second_call(model: bs.FrictionModel) -> dict[str, float]:
@@ -102,41 +106,27 @@ def second_call(model: bs.FrictionModel) -> dict[str, float]:
     def work() -> Any:
         return bs.sweep(model, SCREW, OIL, outputs=["screw_torque"], engine="compiled", **points)
 
-    first = seconds(work)
-    return {"first_s": first, "second_s": min(seconds(work) for _ in range(5))}
+    first, second = first_and_then(work)
+    return {"first_s": first, "second_s": second}
 
 
 def elastic(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
     """Rates of an elastic nut, compiled and by the model, their ratio, and milliseconds of a map."""
     nut = bs.DoubleNut(preload=PRELOAD, bodies=bs.Bodies())
     subject = Configuration(model, dataclasses.replace(SCREW, nut=nut, loaded_balls=BALLS_OF_A_HALF), OIL)
-    outputs = ("screw_torque", "efficiency", "valid")
 
     def scattered(number: int) -> dict[str, Any]:
         load, speed = np.random.default_rng(2).uniform([[100.0], [1.0]], [[20e3], [100.0]], (2, number))
         return {"axial_load": xr.DataArray(load, dims="point"), "screw_speed": xr.DataArray(speed, dims="point")}
 
-    side = {"axial_load": np.linspace(100.0, 20e3, 40), "screw_speed": np.linspace(1.0, 100.0, 30)}
-    compiled, arrays, page = (
-        Evaluation.of(Plan.of(subject, outputs, points), engine)
-        for points, engine in (
-            (scattered(10_000), "compiled"), (scattered(OF_THE_ELASTIC_MODEL), "model"), (side, "compiled"),
-        )
-    )  # fmt: skip
-    found: list[tuple[float, ...]] = []
-    for _ in range(rounds + 1):
-        found.append(
-            tuple(
-                seconds(lambda e=e: e.fill(e.empty(e.plan.total), slice(0, e.plan.total))) / e.plan.total
-                for e in (compiled, arrays, page)
-            )
-        )
-    fast, slow, of_page = np.array(found[1:]).T  # the first round warms up
-    return {
-        "points_per_second": 1 / statistics.median(fast),
-        "over_numpy": statistics.median(slow / fast),
-        "page_ms": 1e3 * page.plan.total * statistics.median(of_page),
+    page = {"axial_load": np.linspace(100.0, 20e3, 40), "screw_speed": np.linspace(1.0, 100.0, 30)}
+    points = {"compiled": scattered(10_000), "model": scattered(OF_THE_ELASTIC_MODEL), "page": page}
+    evaluations = {
+        name: Evaluation.of(Plan.of(subject, OUTPUTS, at), "model" if name == "model" else "compiled")
+        for name, at in points.items()
     }
+    found = per_point(evaluations, rounds)
+    return {**rates(found), "page_ms": 1e3 * evaluations["page"].plan.total * statistics.median(found["page"])}
 
 
 def band(model: bs.FrictionModel) -> dict[str, float]:
@@ -147,8 +137,8 @@ def band(model: bs.FrictionModel) -> dict[str, float]:
         at = {"axial_load": 3000.0, "screw_speed": 50.0}
         return bs.band(model, SCREW, OIL, distributions=uncertain, samples=100_000, **at)
 
-    first = seconds(work)
-    return {"first_s": first, "second_s": seconds(work)}
+    first, second = first_and_then(work, 1)
+    return {"first_s": first, "second_s": second}
 
 
 def fit(model: bs.FrictionModel) -> dict[str, float]:
@@ -176,34 +166,19 @@ def without_avx512() -> None:
     binding.get_host_cpu_name = lambda: "haswell"
 
 
-def main() -> None:
-    """Measure, and print a table or one object."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json", action="store_true")
-    parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--only", metavar="NAME", help="measure one alone")
-    parser.add_argument("--avx2", action="store_true", help="compile without AVX-512")
-    options = parser.parse_args()
-    if options.avx2:
-        without_avx512()
-    work: dict[str, Callable[[bs.FrictionModel], dict[str, float]]] = {
-        "sweep": functools.partial(sweep, rounds=options.rounds),
-        "gradient": functools.partial(gradient, rounds=options.rounds),
-        "second call": second_call,
-        "elastic": functools.partial(elastic, rounds=options.rounds),
-        "band": band,
-        "fit": fit,
-    }
-    chosen = {case: measure for case, measure in work.items() if options.only in (None, case)}
-    found = {name: {case: measure(model) for case, measure in chosen.items()} for name, model in MODELS.items()}
-    if options.json:
-        print(json.dumps(found, indent=1))
-        return
-    for name, cases in found.items():
-        print(name)
-        for case, numbers in cases.items():
-            print(f"  {case:12s} " + ", ".join(f"{what} {value:.4g}" for what, value in numbers.items()))
-
+CASES = {
+    "sweep": sweep,
+    "gradient": gradient,
+    "second call": lambda model, _: second_call(model),
+    "elastic": elastic,
+    "band": lambda model, _: band(model),
+    "fit": lambda model, _: fit(model),
+}
 
 if __name__ == "__main__":
-    main()
+    options = asked(__doc__, rounds=5, only=list(CASES), avx2=False)
+    if options.avx2:
+        without_avx512()
+    chosen = options.only or CASES
+    found = {name: {case: CASES[case](model, options.rounds) for case in chosen} for name, model in MODELS.items()}
+    told(found, options.json)

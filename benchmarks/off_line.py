@@ -6,19 +6,18 @@ python benchmarks/off_line.py --write     the same into docs/off_line.inc
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
 import math
 from collections.abc import Mapping
-from pathlib import Path
 
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import SCREW
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.across_groove import preload_off_line
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import study
 
-PAGE = Path(__file__).parents[1] / "docs" / "off_line.inc"
 REFERENCE = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("VG 100", temperature=313.15)
 SPEED = 2 * math.pi * 100 / 60
@@ -75,29 +74,16 @@ def _row(name: str, screw: BallScrew, load: float) -> list[str]:
     ]  # fmt: skip
 
 
+HEADING = (
+    "screw", "contact angles differ by", "by bristles", "off the line [µm]", "load of braced halves, rigid, elastic",
+    "spin, lifted and lowered", "torque, lifted and lowered", "axial step [µm]",
+)  # fmt: skip
+
+
 def table() -> str:
     """The table as Markdown."""
-    lines = [
-        [
-            "screw", "contact angles differ by", "by bristles", "off the line [µm]",
-            "load of braced halves, rigid, elastic", "spin, lifted and lowered", "torque, lifted and lowered",
-            "axial step [µm]",
-        ],
-        ["---"] * 8,
-        *(_row(name, *of) for name, of in SCREWS.items()),
-    ]  # fmt: skip
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines).replace("-0.", "−0.")
-
-
-def main() -> None:
-    """Print or write the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true")
-    text = table()
-    if parser.parse_args().write:
-        PAGE.write_text(f"{text}\n", encoding="utf-8")
-    print(text)
+    return markdown_table(HEADING, [_row(name, *of) for name, of in SCREWS.items()]).replace("-0.", "−0.")
 
 
 if __name__ == "__main__":
-    main()
+    study(__doc__, table, "off_line.inc")

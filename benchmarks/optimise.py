@@ -6,13 +6,9 @@
 
 from __future__ import annotations
 
-import argparse
-import json
 import math
 import statistics
 import time
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from pymoo.indicators.hv import HV
@@ -22,9 +18,9 @@ from ballscrew.questions.optimise.compute import Found, search
 from ballscrew.questions.optimise.design_model import DesignModel, design_space
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.requirements import front
-from timing import seconds
+from harness import ROOT, asked, seconds, told
 
-NEED = Path(__file__).parents[1] / "examples" / "needs" / "feed_axis.toml"
+NEED = ROOT / "examples" / "needs" / "feed_axis.toml"
 POPULATION, GENERATIONS = 200, 60
 #: Loss in W and inertia in kg m² beyond which nothing counts in the hypervolume: three times the least, and ten times.
 REFERENCE = np.array([100.0, 1e-2])
@@ -81,21 +77,6 @@ def measured(nut: str, seeds: int) -> dict[str, float]:
     return found
 
 
-def main() -> None:
-    """Print all that is measured."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--json", action="store_true")
-    parser.add_argument("--seeds", type=int, default=1)
-    options = parser.parse_args()
-    found: dict[str, Any] = {nut: measured(nut, options.seeds) for nut in ("single", "double")}
-    if options.json:
-        print(json.dumps(found, indent=2))
-        return
-    for nut, numbers in found.items():
-        print(f"{nut} nut")
-        for name, value in numbers.items():
-            print(f"  {name.replace('_', ' '):<32} {value:.4g}")
-
-
 if __name__ == "__main__":
-    main()
+    options = asked(__doc__, seeds=1)
+    told({nut: measured(nut, options.seeds) for nut in ("single", "double")}, options.json)

@@ -2,16 +2,13 @@
 
 ``python benchmarks/out_of_core.py --points 1e8`` fills a store in a process of its own. ``--kill``
 fills a second one whose process is killed three times on the way, and checks that finished blocks
-stayed as they were and that the two stores are the same, file by file. ``--codecs`` measures what
-compressions do to one block. The stores need 6 bytes of disk a value, two at a time with ``--kill``,
-and go when all is done.
+stayed as they were and that the two stores are the same, file by file. The stores need 6 bytes of disk
+a value, two at a time with ``--kill``, in ``--folder``, and go when all is done.
 """
 
 from __future__ import annotations
 
-import argparse
 import filecmp
-import json
 import math
 import os
 import signal
@@ -26,16 +23,16 @@ from typing import Any
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.sweeps.store_plan import Blocks
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from harness import asked, megabytes, told
 from script import OUTPUTS
 
 #: At which parts of the way the process is killed.
 KILLED_AT = (0.25, 0.5, 0.8)
 #: Largest memory that is asked for.
-MEMORY_MB = 600.0
+LIMITS = {"memory_MB": (600.0, False)}
 
 
 def axes(points: int) -> dict[str, Any]:
@@ -75,7 +72,7 @@ def filled(path: Path, points: int, outputs: int) -> tuple[float, float]:
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode:
         sys.exit(f"the sweep ended with {process.returncode}")
-    return float(said), usage.ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
+    return float(said), megabytes(usage)
 
 
 def files(folder: Path) -> Iterator[Path]:
@@ -126,47 +123,6 @@ def same(one: Path, other: Path) -> bool:
     return names == sorted(files(other)) and all(filecmp.cmp(one / name, other / name, shallow=False) for name in names)
 
 
-def codecs(folder: Path) -> dict[str, float]:
-    """What compressions do to one block of a map: MB/s of numbers written, and bytes kept of each."""
-    import zarr
-    from zarr.codecs import BloscCodec, ZstdCodec
-
-    plan = plan_of(100_000_000, len(OUTPUTS))
-    blocks = Blocks.of(plan)
-    results = (evaluation := Evaluation.of(plan)).empty(blocks.largest)
-    evaluation.fill(results, blocks.span(blocks.count // 2))
-    raw = sum(values.nbytes for values in results.values())
-    choices: dict[str, Any] = {"none": None, "zstd_0": ZstdCodec(level=0), "zstd_1": ZstdCodec(level=1)}
-    for name, level, shuffle in (
-        ("lz4", 1, "shuffle"),
-        ("lz4", 1, "bitshuffle"),
-        ("lz4", 5, "shuffle"),
-        ("zstd", 1, "shuffle"),
-        ("zstd", 3, "shuffle"),
-    ):
-        codec: Any = BloscCodec(cname=name, clevel=level, shuffle=shuffle)  # pyright: ignore[reportArgumentType]  (each is one of its words)
-        choices[f"{name}_{level}_{shuffle}"] = codec
-    figures: dict[str, float] = {}
-    for title, codec in choices.items():
-        seconds = math.inf
-        for turn in range(3):
-            path = folder / f"{title}-{turn}.zarr"
-            arrays = {
-                name: zarr.create_array(
-                    path, name=name, shape=values.shape, chunks=values.shape, dtype=values.dtype, compressors=codec
-                )
-                for name, values in results.items()
-            }
-            start = time.perf_counter()
-            for name, values in results.items():
-                arrays[name][:] = values
-            seconds = min(seconds, time.perf_counter() - start)
-            kept = sum((path / name / "c/0").stat().st_size for name in results)
-        figures[f"{title}_MB_per_s"] = raw / seconds / 1e6
-        figures[f"{title}_kept"] = kept / raw
-    return figures
-
-
 def measured(folder: Path, points: int, outputs: int, *, kill: bool) -> dict[str, float]:
     """The figures of one store, and of one that was killed."""
     whole = folder / "whole.zarr"
@@ -183,7 +139,6 @@ def measured(folder: Path, points: int, outputs: int, *, kill: bool) -> dict[str
         "disk_GB": size / 1e9,
         "disk_over_numbers": size / (plan.total * outputs * 8),
         "memory_MB": memory,
-        "memory_at_most_MB": MEMORY_MB,
     }
     if kill:
         figures |= killed(folder / "killed.zarr", points, outputs)
@@ -193,27 +148,13 @@ def measured(folder: Path, points: int, outputs: int, *, kill: bool) -> dict[str
 
 def main() -> None:
     """Measure, and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--points", type=float, default=1e8, help="points of the grid, about (default: 1e8)")
-    parser.add_argument("--outputs", type=int, default=len(OUTPUTS), help="how many of the outputs (default: all 7)")
-    parser.add_argument("--kill", action="store_true", help="a second store, killed three times on the way")
-    parser.add_argument("--codecs", action="store_true", help="compressions on one block, and nothing else")
-    parser.add_argument("--folder", type=Path, help="where the stores go (default: a temporary folder)")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    parser.add_argument("--fill", help=argparse.SUPPRESS)
-    options = parser.parse_args()
+    options = asked(__doc__, points=1e8, outputs=len(OUTPUTS), kill=False, folder=Path, fill=str)
     points = int(options.points)
     if options.fill:
         fill(options.fill, points, options.outputs)
         return
     with tempfile.TemporaryDirectory(prefix="ballscrew-", dir=options.folder) as name:
-        folder = Path(name)
-        figures = codecs(folder) if options.codecs else measured(folder, points, options.outputs, kill=options.kill)
-    if options.json:
-        print(json.dumps(figures, indent=1))
-        return
-    for title, value in figures.items():
-        print(f"{title:28s} {value!s:>12s}" if isinstance(value, bool | int) else f"{title:28s} {value:12.4g}")
+        told(measured(Path(name), points, options.outputs, kill=options.kill), options.json, LIMITS)
 
 
 if __name__ == "__main__":

@@ -6,8 +6,6 @@ nobody looks into meanwhile: to be driven by a program slows plotly.js down by h
 
 from __future__ import annotations
 
-import argparse
-import contextlib
 import os
 import re
 import shutil
@@ -18,9 +16,11 @@ import sys
 import tempfile
 import time
 import urllib.request
-from collections.abc import Iterator
 
 from playwright.sync_api import Page, sync_playwright
+
+from harness import asked
+from serve import server
 
 CASES = {
     "the paper's screw": "#A=paper",
@@ -47,20 +47,6 @@ def chromium() -> str:
     if found is None:
         sys.exit("needs chromium: apt-get install chromium")
     return found
-
-
-@contextlib.contextmanager
-def server() -> Iterator[str]:
-    """The address of a server of its own."""
-    command = [sys.executable, "-m", "ballscrew.faces.cli", "serve", "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, encoding="utf-8") as process:
-        assert process.stdout is not None
-        found = re.search(r"http://\S+", process.stdout.readline())
-        assert found
-        try:
-            yield found[0]
-        finally:
-            process.terminate()
 
 
 def first_chart(address: str, fragment: str) -> float:
@@ -113,20 +99,17 @@ def updates(page: Page, address: str, fragment: str, keys: int) -> dict[str, lis
 
 def main() -> None:
     """Print a table."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--loads", type=int, default=5, help="times that the page is opened")
-    parser.add_argument("--keys", type=int, default=25, help="keys that are pressed")
-    asked = parser.parse_args()
+    options = asked(__doc__, loads=5, keys=25)
     print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} before; medians, and the worst in brackets")
-    with server() as address:
+    with server() as (_, address):
         for name, fragment in CASES.items():
-            loads = [first_chart(address, fragment) for _ in range(asked.loads)]
+            loads = [first_chart(address, fragment) for _ in range(options.loads)]
             print(f"{name}: first chart after {statistics.median(loads):.2f} s ({max(loads):.2f} s)")
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
             page = browser.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
             for name, fragment in CASES.items():
-                found = updates(page, address, fragment, asked.keys)
+                found = updates(page, address, fragment, options.keys)
                 shown = (
                     f"{part} {statistics.median(times):.0f} ms ({max(times):.0f})" for part, times in found.items()
                 )

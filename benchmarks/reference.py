@@ -1,26 +1,20 @@
 """The reference model against the contact integral: how far apart, where, and how much faster.
 
-``python benchmarks/reference.py`` prints tables for people, ``--markdown`` the same for the
-documentation, ``--json`` one object. The cases are random screws of a box (``box``), always the same
-for the same ``--seed``; all of them are used that can exist: balls that fit, and at most the Hertz
-pressure at which balls keep a dent.
+``python benchmarks/reference.py`` prints tables, and rates unless ``--no-speed``; ``--json`` one object. The cases are
+random screws of a box (``box``), always the same for the same ``--seed``; all of them are used that can exist: balls
+that fit, and at most the Hertz pressure at which balls keep a dent.
 """
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
+import functools
 import json
-import sys
-import time
 import warnings
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))  # the contact integral is an oracle of theirs
 
 import ballscrew as bs
 from ballscrew.physics.components.screw import BallScrew
@@ -31,6 +25,8 @@ from ballscrew.physics.laws.friction import ZhouHoeprich
 from ballscrew.physics.solvers import strips
 from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.slip import curvature_slip
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import asked, in_turn, told
 from oracles.contact_integral import ContactIntegral, contact_integral
 from oracles.free_ball import BallResistances
 from oracles.tractions import Coulomb
@@ -131,6 +127,13 @@ def evaluate(model: bs.FrictionModel, cases: Box) -> FrictionResult:
     return model(cases.screw, cases.oil, axial_load=cases.axial_load, screw_speed=cases.screw_speed)
 
 
+def spread(error: Numbers) -> dict[str, float]:
+    """Median, 95th percentile and largest of the absolute error, and the bias."""
+    size = np.abs(error)
+    ends = float(np.median(size)), float(np.percentile(size, 95)), float(np.max(size)), float(np.median(error))
+    return dict(zip(("median", "p95", "largest", "bias"), ends, strict=True))
+
+
 @dataclasses.dataclass(frozen=True)
 class Table:
     """One comparison: errors by model, and what was left out."""
@@ -141,18 +144,8 @@ class Table:
     notes: tuple[str, ...]
 
     def rows(self) -> list[dict[str, Any]]:
-        """Median, 95th percentile and largest of the absolute error, and the bias, by model."""
-        return [
-            {
-                "model": name,
-                "n": len(error),
-                "median": float(np.median(np.abs(error))),
-                "p95": float(np.percentile(np.abs(error), 95)),
-                "largest": float(np.max(np.abs(error))),
-                "bias": float(np.median(error)),
-            }
-            for name, error in self.errors.items()
-        ]
+        """Errors by model."""
+        return [{"model": name, "n": len(error), **spread(error)} for name, error in self.errors.items()]
 
 
 def valid(result: FrictionResult) -> Numbers:
@@ -242,74 +235,67 @@ def speed(size: int = 200_000) -> dict[str, float]:
     screw, oil = box(1, 7).one(0), bs.Lubricant(viscosity=0.1)
     F, n = rng.uniform(100, 5000, size), rng.uniform(0, 1000, size) * RPM
     model = bs.FrictionModel.reference()
-    arrays: list[float] = []
-    swept: list[float] = []
-    integral: list[float] = []
     loads, speeds = np.sort(rng.uniform(100, 5000, 500)), np.sort(rng.uniform(0, 1000, 400)) * RPM
-    for _ in range(5):
-        start = time.perf_counter()
-        _ = model(screw, oil, axial_load=F, screw_speed=n).efficiency
-        arrays.append(size / (time.perf_counter() - start))
-        start = time.perf_counter()
-        bs.sweep(model, screw, oil, axial_load=loads, screw_speed=speeds)
-        swept.append(loads.size * speeds.size / (time.perf_counter() - start))
-        start = time.perf_counter()
-        for load in (1.0, 3.0, 10.0, 30.0, 100.0):
-            contact_integral(screw, load, Coulomb(DRY))
-        integral.append(5 / (time.perf_counter() - start))
-    medians = {
-        name: float(np.median(rates)) for name, rates in (("arrays", arrays), ("sweep", swept), ("integral", integral))
-    }
-    return {**medians, "ratio": medians["arrays"] / medians["integral"]}
-
-
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Print what was asked for."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--cases", type=int, default=600, help="random screws (default %(default)s)")
-    parser.add_argument("--seed", type=int, default=2005, help="of the random screws (default %(default)s)")
-    parser.add_argument("--json", action="store_true", help="one JSON object")
-    parser.add_argument(
-        "--strips", type=int, default=strips.NUMBER_OF_STRIPS, help="of a contact (default %(default)s)"
+    few = (1.0, 3.0, 10.0, 30.0, 100.0)
+    times = in_turn(
+        {
+            "arrays": lambda: model(screw, oil, axial_load=F, screw_speed=n).efficiency,
+            "sweep": lambda: bs.sweep(model, screw, oil, axial_load=loads, screw_speed=speeds),
+            "integral": lambda: [contact_integral(screw, load, Coulomb(DRY)) for load in few],
+        },
+        rounds=5,
     )
-    parser.add_argument("--aligned", type=float, default=strips.ALIGNED, help="share of variance (default %(default)s)")
-    parser.add_argument("--no-speed", action="store_true", help="accuracy only")
-    parser.add_argument("--markdown", action="store_true", help="tables for the documentation, without times")
-    chosen = parser.parse_args(arguments)
-    strips.STRIPS, strips.ALIGNED = strips.strips_of(chosen.strips), chosen.aligned
-    cases = box(chosen.cases, chosen.seed)
-    tables = (slip_alone(cases), *whole_model(cases))
-    if chosen.json:
-        listed = [{"title": t.title, "rows": t.rows(), "notes": t.notes, "far": far_off(t, cases)} for t in tables]
-        print(json.dumps({"tables": listed, "speed": None if chosen.no_speed else speed()}, indent=2))
-        return
-    for table in tables:
-        print(_markdown(table, cases))
-    if not (chosen.markdown or chosen.no_speed):
-        rates = speed()
-        print(f"reference model on arrays {rates['arrays']:.3g} points/s, in a sweep {rates['sweep']:.3g} points/s;")
-        print(f"contact integral {rates['integral']:.3g} points/s; ratio {rates['ratio']:.0f}")
+    points = {"arrays": size, "sweep": loads.size * speeds.size, "integral": len(few)}
+    rates = {name: points[name] / float(np.median(taken)) for name, taken in times.items()}
+    return {**rates, "ratio": rates["arrays"] / rates["integral"]}
 
 
-def _markdown(table: Table, cases: Box) -> str:
-    lines = [f"**{table.title}** ({'; '.join(table.notes)})", ""]
-    lines += ["| slip law | cases | median | 95 % within | largest | bias |", "| --- | --- | --- | --- | --- | --- |"]
-    lines += [
-        f"| {row['model']} | {row['n']} | {row['median']:.2%} | {row['p95']:.2%} | {row['largest']:.1%} "
-        f"| {row['bias']:+.2%} |"
-        for row in table.rows()
-    ]
+@functools.cache
+def compared(number: int = 600, seed: int = 2005) -> tuple[Box, tuple[Table, ...]]:
+    """Random screws, and the tables."""
+    cases = box(number, seed)
+    return cases, (slip_alone(cases), *whole_model(cases))
+
+
+def in_words(row: Mapping[str, Any]) -> list[str]:
+    """Errors as the documentation shows them."""
+    return [f"{row['median']:.2%}", f"{row['p95']:.2%}", f"{row['largest']:.1%}", f"{row['bias']:+.2%}"]
+
+
+ERRORS = "median", "95 % within", "largest", "bias"
+OF_FAR = "error", "load of a ball", "speed", "lead/d_m", "largest traction", "friction", "balanced"
+
+
+def as_markdown(table: Table, cases: Box) -> str:
+    """A table for the documentation, and what is far off."""
+    rows = [[row["model"], str(row["n"]), *in_words(row)] for row in table.rows()]
+    text = f"**{table.title}** ({'; '.join(table.notes)})\n\n{markdown_table(('slip law', 'cases', *ERRORS), rows)}"
     far = far_off(table, cases)
-    if far:
-        lines += ["", f"Beyond {FAR:.0%} ({len(far)} cases):", ""]
-        lines += ["| error | load of a ball | speed | lead/d_m | largest traction | friction | balanced |"]
-        lines += ["| --- | --- | --- | --- | --- | --- | --- |"]
-        lines += [
-            f"| {row['error']:+.1%} | {row['load']:.3g} N | {row['speed']:.0f} rpm | {row['lead']:.2f} | "
-            f"{row['traction']:.3f} | {row['friction']:.3f} | {'yes' if row['balanced'] else 'no'} |"
-            for row in far[:12]
-        ]
-    return "\n".join(lines) + "\n"
+    if not far:
+        return text
+    rows = [
+        [f"{row['error']:+.1%}", f"{row['load']:.3g} N", f"{row['speed']:.0f} rpm", f"{row['lead']:.2f}",
+         f"{row['traction']:.3f}", f"{row['friction']:.3f}", "yes" if row["balanced"] else "no"]
+        for row in far[:12]
+    ]  # fmt: skip
+    return f"{text}\nBeyond {FAR:.0%} ({len(far)} cases):\n\n{markdown_table(OF_FAR, rows)}"
+
+
+def main() -> None:
+    """Print what was asked for; ``--strips`` and ``--aligned`` are those of a contact."""
+    options = asked(
+        __doc__, cases=600, seed=2005, no_speed=False, strips=strips.NUMBER_OF_STRIPS, aligned=strips.ALIGNED
+    )
+    strips.STRIPS, strips.ALIGNED = strips.strips_of(options.strips), options.aligned
+    cases, tables = compared(options.cases, options.seed)
+    rates = None if options.no_speed else speed()
+    if options.json:
+        listed = [{"title": t.title, "rows": t.rows(), "notes": t.notes, "far": far_off(t, cases)} for t in tables]
+        print(json.dumps({"tables": listed, "speed": rates}, indent=2))
+        return
+    print("\n".join(as_markdown(table, cases) for table in tables))
+    if rates:
+        told({"points a second": rates}, False)
 
 
 if __name__ == "__main__":

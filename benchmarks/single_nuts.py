@@ -1,6 +1,6 @@
 """Causes that could move or spread the torque of single nuts with oversize balls, computed for the rows of two makers.
 
-    python benchmarks/single_nuts.py
+    python benchmarks/single_nuts.py [--write]
 
 Oversize of the balls at the preload of the row, which half a gauge of 1 um (ISO3290-1, balls of G5 and G10) changes by
 so much; the half range of torque that the maker states, over its middle; the torque of the model over this middle, and
@@ -19,7 +19,9 @@ from ballscrew.engine.uncertainty.default_uncertainties import default_uncertain
 from ballscrew.evidence.validation.entries import Entry, Point
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.solvers.load_distribution import preload_growth
+from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute
+from harness import study
 
 SETS = ("rexroth-single-nut", "hiwin-stock")
 
@@ -66,23 +68,23 @@ def kind_of(entry: Entry, point: Point) -> str:
     return f"HIWIN, {starts}"
 
 
-def main() -> None:
-    """Print the table as Markdown."""
+def table() -> str:
+    """The rows by their kinds, as Markdown."""
     request = dataclasses.replace(compute.request(SETS), calibration=None)
     by_kind: dict[str, list[Row]] = {}
     for entries, _ in compute.evaluate(request):
         for row in rows_of(entries[0]):
             by_kind.setdefault(row.kind, []).append(row)
     headings = ("rows", "number", "oversize, µm", "preload by half a gauge", "stated half range", "model / middle")
-    print(f"| {' | '.join(headings)} | if bodies swell |")
-    print("|---|--:|--:|--:|--:|--:|--:|")
+    lines: list[list[str]] = []
     for kind, rows in by_kind.items():
         sizes = [row.oversize for row in rows]
         shares = (statistics.median(getattr(row, name) for row in rows) for name in ("by_gauge", "stated"))
         ratios = (statistics.mean(getattr(row, name) for row in rows) for name in ("ratio", "swollen"))
         cells = [f"{min(sizes):.1f} to {max(sizes):.1f}", *(f"± {x:.0%}" for x in shares)]
-        print(f"| {kind} | {len(rows)} | {' | '.join([*cells, *(f'{x:.2f}' for x in ratios)])} |")
+        lines.append([kind, str(len(rows)), *cells, *(f"{x:.2f}" for x in ratios)])
+    return markdown_table((*headings, "if bodies swell"), lines, numbers=True)
 
 
 if __name__ == "__main__":
-    main()
+    study(__doc__, table, "single_nuts.inc")

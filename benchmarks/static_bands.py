@@ -8,8 +8,8 @@ program with the samples and the calibrations of the page. Times are those of no
 
 from __future__ import annotations
 
+import itertools
 import math
-import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,13 +18,13 @@ from typing import Any
 
 import numpy as np
 
+import harness  # noqa: F401  (tests are found by it)
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.uncertainty import bands
 from ballscrew.faces.page import kinds
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.band.compute import alternatives, of_makers
-
-sys.path.append(str(Path(__file__).parents[1] / "tests"))
+from ballscrew.questions.shared.text_tables import markdown_table
 from support.bands_in_node import BandsPage, arguments_of, band_of_program, fan_of_program
 from support.judged_in_node import case_at
 
@@ -96,29 +96,29 @@ def random_ends() -> Iterator[tuple[float, float]]:
         yield low / least, high / most
 
 
-def main() -> None:
-    """Print the table, and quantiles of the ends of random cases."""
-    print(f"| {' | '.join(HEADING)} |")
-    print("|---" * len(HEADING) + "|")
+def table() -> str:
+    """The bands at the starts, and quantiles of the ends of random cases."""
+    rows: list[tuple[str, ...]] = []
     with tempfile.TemporaryDirectory() as folder:
         page = BandsPage(Path(folder), [("reference", kind) for kind in NUTS.values()])
-        for screw, start in STARTS.items():
-            for nut, kind in NUTS.items():
-                found = compared(page, start, ("reference", kind))
-                (low, high), (least, most) = found["page"], found["program"]
-                lower = sorted((1 - least / low, 1 - most / high))
-                wider = math.log(most / least) / math.log(high / low) - 1
-                ends, fan = found["seconds"]
-                cells = (
-                    screw, nut, f"{low:.3f} to {high:.3f}", f"{least:.3f} to {most:.3f}",
-                    f"{lower[0]:.0%} to {lower[1]:.0%}", f"{wider:.0%}", f"{found['difference']:.0e}", f"{ends:.1f}",
-                    f"{fan:.1f}",
-                )  # fmt: skip
-                print(f"| {' | '.join(cells)} |", flush=True)
+        for (screw, start), (nut, kind) in itertools.product(STARTS.items(), NUTS.items()):
+            found = compared(page, start, ("reference", kind))
+            (low, high), (least, most), (ends, fan) = found["page"], found["program"], found["seconds"]
+            lower = sorted((1 - least / low, 1 - most / high))
+            wider = math.log(most / least) / math.log(high / low) - 1
+            rows.append((
+                screw, nut, f"{low:.3f} to {high:.3f}", f"{least:.3f} to {most:.3f}",
+                f"{lower[0]:.0%} to {lower[1]:.0%}", f"{wider:.0%}", f"{found['difference']:.0e}", f"{ends:.1f}",
+                f"{fan:.1f}",
+            ))  # fmt: skip
+    lines = [markdown_table(HEADING, rows)]
     for end, ratios in zip(ENDS, np.transpose(list(random_ends())), strict=True):
         least, lower, median, upper, most = np.quantile(ratios, [0, 0.25, 0.5, 0.75, 1])
-        print(f"{end} end, page over program: {median:.2f}, {lower:.2f} to {upper:.2f}, all {least:.2f} to {most:.2f}")
+        lines.append(
+            f"{end} end, page over program: {median:.2f}, {lower:.2f} to {upper:.2f}, all {least:.2f} to {most:.2f}"
+        )
+    return "\n".join(lines) + "\n"
 
 
 if __name__ == "__main__":
-    main()
+    print(table(), end="")

@@ -8,9 +8,7 @@ and the range of validity agree everywhere. ``curve`` is 41 speeds as the page d
 
 from __future__ import annotations
 
-import argparse
 import gzip
-import sys
 import tempfile
 import time
 import warnings
@@ -34,8 +32,8 @@ from ballscrew.faces.page.banding import module_of_banding
 from ballscrew.faces.page.contents import contents
 from ballscrew.faces.page.judging import Judging, module_of_judging
 from ballscrew.faces.page.modules import inputs_of_module, varying_of
-
-sys.path.append(str(Path(__file__).parents[1] / "tests"))
+from ballscrew.questions.shared.text_tables import markdown_table
+from harness import asked
 from support.modules_in_node import evaluated
 
 START = "rexroth-40x10x6-6-double"
@@ -75,7 +73,7 @@ def worst(subject: Any, points: dict[str, Any], found: dict[str, Any]) -> tuple[
     return float(np.nanmax(np.where(torque == 0, 0.0, off))), bool(agree)
 
 
-def row(structure: tuple[str, str], judging: Judging, folder: Path) -> str:
+def row(structure: tuple[str, str], judging: Judging, folder: Path) -> list[str]:
     """The line of a module."""
     subject = kinds.subject_of(kinds.case_of(START, *structure))
     start = time.process_time()
@@ -94,24 +92,19 @@ def row(structure: tuple[str, str], judging: Judging, folder: Path) -> str:
     one |= {"axial_load": 3000.0, NUT_DIAMETER: None}
     asked = {"structure": name, "one": one, "times": TIMES}
     _, taken = evaluated(folder, known, asked, {"screw_speed": np.linspace(1.0, 100.0, CURVE)})
-    size = f"{len(module.code) / 1e3:.0f} | {len(gzip.compress(module.code, mtime=0)) / 1e3:.0f}"
-    times = f"{taken[0]:.1f} | {np.median(taken):.2f}"
-    return f"| {name} | {size} | {built:.1f} | {count} | {off:.0e} | {'yes' if agree else 'NO'} | {times} |"
+    packed = gzip.compress(module.code, mtime=0)
+    agrees, times = ("yes" if agree else "NO"), (f"{taken[0]:.1f}", f"{np.median(taken):.2f}")
+    sizes = f"{len(module.code) / 1e3:.0f}", f"{len(packed) / 1e3:.0f}"
+    return [name, *sizes, f"{built:.1f}", str(count), f"{off:.0e}", agrees, *times]
 
 
-def main() -> None:
-    """Print the table."""
-    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("--few", action="store_true", help="six of them")
-    chosen = FEW if options.parse_args().few else kinds.structures()
-    warnings.simplefilter("ignore")  # of inputs at random, many of which no ball screw has
-    print("| model/nut | kB | gzip kB | built, s CPU | points | worst | same NaN, truths | first, ms | curve, ms |")
-    print("|---|---|---|---|---|---|---|---|---|")
-    judging = module_of_judging()
-    with tempfile.TemporaryDirectory() as folder:
-        for structure in chosen:
-            print(row(structure, judging, Path(folder)), flush=True)
-
+HEADING = (
+    "model/nut", "kB", "gzip kB", "built, s CPU", "points", "worst", "same NaN, truths", "first, ms", "curve, ms",
+)  # fmt: skip
 
 if __name__ == "__main__":
-    main()
+    chosen = FEW if asked(__doc__, few=False).few else kinds.structures()
+    warnings.simplefilter("ignore")  # of inputs at random, many of which no ball screw has
+    with tempfile.TemporaryDirectory() as folder:
+        rows = [row(structure, module_of_judging(), Path(folder)) for structure in chosen]
+    print(markdown_table(HEADING, rows), end="")

@@ -1,27 +1,21 @@
 """How fast a screw warms up: transients of a preloaded nut, against the model itself as right-hand side, in one run.
 
-``python benchmarks/warm_up.py`` prints a table, ``--json`` one object; ``--many 1000`` runs that many surroundings
-instead of 50, ``--processes 2`` on two processors. The nut is a double one of the catalogue with 3.5 kN, the duty to
-and fro at 1000 rpm over half a metre, four hours.
+``python benchmarks/warm_up.py`` prints a table, ``--json`` one object. The nut is a double one of the catalogue with
+3.5 kN, the duty to and fro at 1000 rpm over half a metre, four hours.
 
 - ``first``: the first transient of a duty, with the map of its friction.
 - ``transient``: the next ones, with other surroundings.
 - ``steady``: the steady state alone.
-- ``many``: transients one by one, in all and extrapolated to a thousand.
 - ``band``: a thousand transients for a band, side by side (``bs.warm_up_band``), on one processor.
 - ``plain``: the same four hours with the model called at every right-hand side; temperatures of both are compared.
 """
 
 from __future__ import annotations
 
-import argparse
 import dataclasses
-import json
+import functools
 import math
 import statistics
-import time
-from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -31,6 +25,7 @@ from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.thermal.friction_map import state_maps
 from ballscrew.axis.thermal.network import Network
 from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
+from harness import asked, seconds, told
 
 PRELOAD, RPM, STROKE, START = 3500.0, 1000.0, 0.5, 293.15
 AIR = bs.Surroundings(shaft_length=1.2, ambient=START)
@@ -63,16 +58,16 @@ class Plain(Network):
         return float(np.mean(found.screw_torque)) * speed
 
 
-def plain(network: Network, seconds: float) -> tuple[float, int, float]:
+def plain(network: Network, duration: float) -> tuple[float, int, float]:
     """Time of the plain way, its calls, and the temperature of the nut at the end."""
     from ballscrew.axis.thermal import warm_up
 
     fields = {field.name: getattr(network, field.name) for field in dataclasses.fields(Network)}
     own = Plain(**fields)
     start = np.full(own.size, START)
-    before = time.perf_counter()
-    instants, states, stopped = warm_up._integrated(own, start, np.array([0.0, seconds]), works=True)
-    took = time.perf_counter() - before
+    made: list[Any] = []
+    took = seconds(lambda: made.extend(warm_up._integrated(own, start, np.array([0.0, duration]), works=True)))
+    instants, states, stopped = made
     found = WarmUp(duty(), own, instants, states, np.ones(instants.size, dtype=bool), stopped)
     return took, own.calls[0], float(found.nut_temperature[-1])
 
@@ -85,91 +80,28 @@ def transient(surroundings: bs.Surroundings) -> WarmUp:
     return found
 
 
-def drawn(number: int) -> list[bs.Surroundings]:
-    """Other surroundings: what is the least known, within its factors."""
-    draw = np.random.default_rng(1)
-    return [
-        dataclasses.replace(
-            AIR,
-            ball_conductance=4.6 * 3 ** draw.uniform(-1, 1),
-            shaft_convection=34.0 * 2 ** draw.uniform(-1, 1),
-            nut_conductance=10.0 * 2 ** draw.uniform(-1, 1),
-            shaft_share=draw.uniform(0.3, 0.7),
-        )
-        for _ in range(number)
-    ]
-
-
-def _end(surroundings: bs.Surroundings) -> float:
-    return float(transient(surroundings).nut_temperature[-1])
-
-
-def timed(work: Callable[[], Any], rounds: int) -> float:
-    """Median time of some rounds, s."""
-    times: list[float] = []
-    for _ in range(rounds):
-        before = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - before)
-    return statistics.median(times)
-
-
-def measured(many: int, processes: int, rounds: int) -> dict[str, float]:
+def measured(rounds: int) -> dict[str, float]:
     """All times in seconds, and ratios."""
+
+    def timed(work: Any, rounds: int = rounds) -> float:
+        return statistics.median(seconds(work) for _ in range(rounds))
+
     MODEL(SCREW, OIL, axial_load=0.0, screw_speed=1.0)  # imports and tables that every use of the model pays once
-    found: dict[str, float] = {"first": timed(lambda: transient(AIR), 1)}
-    found["transient"] = timed(lambda: transient(AIR), rounds)
-    found["map"] = timed(lambda: state_maps.__wrapped__(duty()), rounds)
-    found["steady"] = timed(lambda: bs.steady_heat(duty(), AIR), rounds)
-    surroundings = drawn(many)
-    before = time.perf_counter()
-    if processes > 1:
-        with ProcessPoolExecutor(processes) as pool:
-            ends = list(pool.map(_end, surroundings, chunksize=max(1, many // (4 * processes))))
-    else:
-        ends = [_end(one) for one in surroundings]
-    found["many"] = time.perf_counter() - before
-    found["many_number"] = len(ends)
-    found["thousand"] = 1000 * found["many"] / len(ends)
-    found["band"] = timed(lambda: bs.warm_up_band(duty(), AIR, samples=1000), 1)
-    network = warm_up(duty(), AIR, time=HOURS, outputs=2).network
-    short = timed(lambda: warm_up(duty(), AIR, time=HOURS, outputs=2), rounds)
-    took, calls, temperature = plain(network, HOURS)
-    nut = float(warm_up(duty(), AIR, time=HOURS, outputs=2).nut_temperature[-1])
-    return found | {
-        "plain": took,
-        "plain_calls": calls,
-        "plain_over_ours": took / short,
-        "difference": abs(temperature - nut),
-    }
+    found: dict[str, float] = {"first": seconds(lambda: transient(AIR))}
+    found["transient"] = timed(lambda: transient(AIR))
+    found["map"] = timed(lambda: state_maps.__wrapped__(duty()))
+    found["steady"] = timed(lambda: bs.steady_heat(duty(), AIR))
+    found["band"] = seconds(lambda: bs.warm_up_band(duty(), AIR, samples=1000))
+    ours = functools.partial(warm_up, duty(), AIR, time=HOURS, outputs=2)
+    short, last = timed(ours), ours()
+    took, calls, temperature = plain(last.network, HOURS)
+    difference = abs(temperature - float(last.nut_temperature[-1]))
+    return found | {"plain": took, "plain_calls": calls, "plain_over_ours": took / short, "difference": difference}
 
 
-def main() -> None:
-    """Print times and ratios."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--many", type=int, default=50)
-    parser.add_argument("--processes", type=int, default=1)
-    parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--json", action="store_true")
-    given = parser.parse_args()
-    found = measured(given.many, given.processes, given.rounds)
-    if given.json:
-        print(json.dumps(found, indent=2))
-        return
-    print(f"first transient of a duty, 4 h        {found['first']:.3f} s (asked: 0.3 s after it)")
-    print(f"next transients, median               {found['transient']:.3f} s, without the map of {found['map']:.3f} s")
-    print(f"steady state alone                    {found['steady']:.3f} s")
-    print(
-        f"{found['many_number']:.0f} other surroundings                 {found['many']:.1f} s on {given.processes} "
-        f"processors: {found['thousand']:.0f} s a thousand (asked: 180 s on two)"
-    )
-    print(f"a band of a thousand, side by side    {found['band']:.1f} s on one processor")
-    print(
-        f"model itself as right-hand side       {found['plain']:.2f} s for the same, "
-        f"{found['plain_calls']:.0f} calls: {found['plain_over_ours']:.0f} times as long; temperatures differ by "
-        f"{found['difference']:.1g} K"
-    )
-
+#: Asked for, s.
+LIMITS = {"transient": (0.3, False)}
 
 if __name__ == "__main__":
-    main()
+    given = asked(__doc__, rounds=5)
+    told(measured(given.rounds), given.json, LIMITS)

@@ -1,39 +1,26 @@
-"""Comparison of the models with the contact integral, as printed by the benchmarks."""
+"""Comparison of the models with the contact integral, by the benchmarks."""
 
 from __future__ import annotations
 
-import contextlib
-import importlib
-import io
-import json
 import sys
 from pathlib import Path
 
-BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
+from ballscrew.questions.shared.text_tables import markdown_table
+
+sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
+import reference
 
 
-def printed(benchmark: str, *options: str) -> str:
-    """Output of a benchmark, run in this process: what it has computed serves its next options."""
-    if str(BENCHMARKS) not in sys.path:
-        sys.path.append(str(BENCHMARKS))
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
-        importlib.import_module(benchmark).main(options)
-    return said.getvalue()
-
-
-def page() -> str:
-    """All tables of the page on accuracy."""
-    return printed("reference", "--markdown")
-
-
-def short_table() -> str:
-    """One line for each comparison of the reference model, for the page on agreement."""
-    tables = json.loads(printed("reference", "--json", "--no-speed"))["tables"]
-    lines = [["reference model against the integral", "screws", "median", "95 % within", "largest"], ["---"] * 5]
+def write(folder: Path) -> None:
+    """All tables of the page on accuracy, and one line of each for the page on agreement."""
+    folder.mkdir(parents=True, exist_ok=True)
+    cases, tables = reference.compared()
+    whole = "\n".join(reference.as_markdown(table, cases) for table in tables)
+    (folder / "whole.md").write_text(whole, encoding="utf-8")
+    rows: list[tuple[str, ...]] = []
     for table in tables:
-        row = next(row for row in table["rows"] if row["model"] == "reference")
-        errors = [f"{100 * row['median']:.1g} %", f"{100 * row['p95']:.1f} %", f"{100 * row['largest']:.1f} %"]
-        title = table["title"][0].lower() + table["title"][1:]
-        lines.append([title, str(row["n"]), *errors])
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+        row = next(row for row in table.rows() if row["model"] == "reference")
+        errors = f"{100 * row['median']:.1g} %", f"{100 * row['p95']:.1f} %", f"{100 * row['largest']:.1f} %"
+        rows.append((table.title[0].lower() + table.title[1:], str(row["n"]), *errors))
+    heading = ("reference model against the integral", "screws", "median", "95 % within", "largest")
+    (folder / "short.md").write_text(markdown_table(heading, rows), encoding="utf-8")

@@ -9,6 +9,7 @@ import httpx
 
 from ballscrew.faces.web import bodies, connections, job_process, jobs, limits, problems, request_queue
 from ballscrew.faces.web.server import application
+from ballscrew.questions.shared.text_tables import markdown_table
 
 #: The case of the examples, as Python source.
 CASE = """\
@@ -60,15 +61,15 @@ def _example(shown: str, printed: str) -> str:
 
 def addresses() -> str:
     """Each address, its query parameters, and its description."""
-    rows = ["| address | answer |", "|---|---|"]
+    rows: list[tuple[str, str]] = []
     described = json.loads(_get("/api/v1/openapi.json"))
     for path, methods in described["paths"].items():
         for method, operation in methods.items():
             words = " ".join(operation["description"].split()).replace("``", "`")
             query = [p["name"] for p in operation.get("parameters", ()) if p["in"] == "query"]
             asked = f" `?{'&'.join(f'{name}=' for name in query)}`" if query else ""
-            rows.append(f"| `{method.upper()} {path}`{asked} | {words} |")
-    return "\n".join(rows) + "\n"
+            rows.append((f"`{method.upper()} {path}`{asked}", words))
+    return markdown_table(("address", "answer"), rows)
 
 
 def _get(path: str) -> bytes:
@@ -82,8 +83,7 @@ def _get(path: str) -> bytes:
 
 def statuses() -> str:
     """Title of each error status."""
-    rows = [f"| {status} | {title} |" for status, title in problems.TITLES.items()]
-    return "\n".join(["| status | title |", "|---|---|", *rows]) + "\n"
+    return markdown_table(("status", "title"), [(str(status), title) for status, title in problems.TITLES.items()])
 
 
 def limits_table() -> str:
@@ -110,7 +110,7 @@ def limits_table() -> str:
         "seconds that a job goes on unless somebody asks about it": jobs.LEFT_ALONE,
         "seconds that the answer of a job is kept": jobs.KEPT,
     }
-    return "\n".join(["| at most | |", "|---|--:|", *(f"| {words} | {n:,.0f} |" for words, n in rows.items())]) + "\n"
+    return markdown_table(("at most", ""), [(words, f"{n:,.0f}") for words, n in rows.items()], numbers=True)
 
 
 def write(folder: Path) -> None:

@@ -23,6 +23,7 @@ from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
 from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.text_tables import markdown_table
 
 DENSITY = 870.0
 SPEEDS, VISCOSITIES, SHARES = (30.0, 100.0, 300.0, 1000.0, 3000.0), (20.0, 68.0, 200.0), (0.02, 0.05, 0.10)
@@ -97,15 +98,16 @@ def table() -> str:
         "λ above 2": lambda p: p.film_parameter >= 2,
         "n d_m above 50 000 mm/min": lambda p: p.speed * next(b.mean for b in BEARINGS if b.name == p.bearing) > 5e4,
     }
-    lines = ["| points | number | rolling | slip | slip, new surfaces | total |", "|---|---:|---:|---:|---:|---:|"]
+    lines: list[list[str]] = []
     for words, holds in groups.items():
         chosen = [i for i, point in enumerate(points()) if holds(point)]
         run_in, new = ([points(state)[i] for i in chosen] for state in (False, True))
         rolling, slip, total = _ratios(run_in)
         cells = (rolling, slip, _ratios(new)[1], total)
-        spread = " | ".join(f"{np.mean(each):.2f} ± {np.std(each, ddof=1):.2f}" for each in cells)
-        lines.append(f"| {words} | {len(chosen)} | {spread} |")
-    return "\n".join(lines) + "\n"
+        spread = (f"{np.mean(each):.2f} ± {np.std(each, ddof=1):.2f}" for each in cells)
+        lines.append([words, str(len(chosen)), *spread])
+    heads = ("points", "number", "rolling", "slip", "slip, new surfaces", "total")
+    return markdown_table(heads, lines, numbers=True)
 
 
 def picture() -> Figure:
@@ -122,9 +124,7 @@ def picture() -> Figure:
             own = np.array([point.bearing == bearing.name for point in points()])
             panel.plot(lam[own], values[own], marker, markersize=4, linestyle="none", label=bearing.name)
         panel.axhline(1.0, color=charts.GREY, linewidth=0.8)
-        panel.set_xscale("log")
-        panel.set_xlabel("film parameter λ")
-        panel.set_title(words)
+        panel.set(xscale="log", xlabel="film parameter λ", title=words)
         panel.legend()
     np.ravel(panels)[0].set_ylabel("this model / bearing maker's")
     return figure

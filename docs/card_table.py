@@ -1,6 +1,7 @@
 """Tables of what a torque card holds, from the models that check it."""
 
 from ballscrew.cases.torque_cards.torque_card import json_schema
+from ballscrew.questions.shared.text_tables import markdown_table
 
 
 def tables() -> str:
@@ -16,11 +17,12 @@ def tables() -> str:
 
 
 def _table(title, part):
-    lines = [f"**`{title}`**\n", "| field | needed | written as | meaning |", "|---|---|---|---|"]
-    for name, field in part["properties"].items():
-        needed = "yes" if name in part.get("required", ()) else ""
-        lines.append(f"| `{name}` | {needed} | {_written(field)} | {field.get('description', '')} |")
-    return "\n".join(lines) + "\n"
+    needed = part.get("required", ())
+    rows = [
+        (f"`{name}`", "yes" if name in needed else "", _written(field), field.get("description", ""))
+        for name, field in part["properties"].items()
+    ]
+    return f"**`{title}`**\n\n{markdown_table(('field', 'needed', 'written as', 'meaning'), rows)}"
 
 
 def _written(field):

@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.files.tables.headings import Column
+from ballscrew.questions.shared.text_tables import markdown_table
 
 
 def column_table() -> str:
     """One row for each column."""
-    return "\n".join(_lines()) + "\n"
-
-
-def _lines() -> Iterator[str]:
-    yield "| column | meaning | needed | unit | other names | only beside another name |"
-    yield "|---|---|---|---|---|---|"
-    for column in COLUMNS:
-        quantity = column.quantity
-        meaning = "" if quantity is None else quantity.info.meaning
-        needed = "yes" if column.required else "no"
-        yield (
-            f"| `{column.name}` | {meaning} | {needed} | {_cells(column)} | {_listed(column.aliases)} |"
-            f" {_listed(_own_hints(column))} |"
-        )
+    rows = [
+        (f"`{column.name}`", "" if column.quantity is None else column.quantity.info.meaning,
+         "yes" if column.required else "no", _cells(column), _listed(column.aliases), _listed(_own_hints(column)))
+        for column in COLUMNS
+    ]  # fmt: skip
+    return markdown_table(("column", "meaning", "needed", "unit", "other names", "only beside another name"), rows)
 
 
 def _cells(column: Column) -> str:

@@ -18,6 +18,7 @@ from ballscrew.axis.duty_cycle.duty import Duty, duty
 from ballscrew.axis.duty_cycle.vendor_rule import VendorRule
 from ballscrew.axis.motion.profiles import Motion, Segment, Segments, Trapezoid
 from ballscrew.physics.components.nut import SingleNut
+from ballscrew.questions.shared.text_tables import markdown_table
 
 
 @dataclasses.dataclass(frozen=True)
@@ -109,31 +110,23 @@ def life_of_thk() -> CycleLife:
 
 def table() -> str:
     """The examples as they are printed, by their rule, and by mechanics at the same efficiency."""
-    lines = [
-        "| example | quantity | printed | by its rule | by mechanics |",
-        "|---|---|---:|---:|---:|",
-    ]
+    rows: list[tuple[str, ...]] = []
     for example in EXAMPLES:
         rule, ours = example.rule, example.duty
         pairs = {
             "RMS torque": (example.printed_rms, rule.torque_rms, ours.torque_rms),
             "peak torque": (example.printed_peak, rule.torque_peak, ours.torque_peak),
         }
-        for quantity, (printed, by_rule, by_mechanics) in pairs.items():
-            if printed is not None:
-                numbers = " | ".join(f"{number:.4g} N m" for number in (printed, by_rule, by_mechanics))
-                lines.append(f"| {example.name} | {quantity} | {numbers} |")
-    life = life_of_thk()
+        for quantity, found in pairs.items():
+            if found[0] is not None:
+                rows.append((example.name, quantity, *(f"{number:.4g} N m" for number in found)))
+    life, name = life_of_thk(), EXAMPLES[0].name
     mean, turns = THK_LIFE[2:]
-    lines.append(
-        f"| {EXAMPLES[0].name} | mean load | {mean:.4g} N | {life.mean_load:.4g} N "
-        f"| {life.mean_load:.4g} N on each flank |"
-    )
-    lines.append(
-        f"| {EXAMPLES[0].name} | life | {turns:.2g} turns | {life.revolutions_of_the_worse:.2g} turns "
-        f"| {life.revolutions:.2g} turns, both flanks |"
-    )
-    return "\n".join(lines) + "\n"
+    ours = f"{life.mean_load:.4g} N"
+    rows.append((name, "mean load", f"{mean:.4g} N", ours, f"{ours} on each flank"))
+    worse, both = life.revolutions_of_the_worse, life.revolutions
+    rows.append((name, "life", f"{turns:.2g} turns", f"{worse:.2g} turns", f"{both:.2g} turns, both flanks"))
+    return markdown_table(("example", "quantity", "printed", "by its rule", "by mechanics"), rows)
 
 
 if __name__ == "__main__":

@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.text_tables import markdown_table
 from effect_study import curves, law_figures
 from effect_study import effect_figures as figures
-from effect_study.cases import CASES, CATALOGUE, RPM, effects, sensitivities
+from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, effects, sensitivities
 
 
 def write(folder: Path) -> None:
     """Figures as SVG and PNG, tables as Markdown."""
     folder.mkdir(parents=True, exist_ok=True)
-    cases = figures.drawn_cases()
+    cases = CASES
     with charts.house_style():
-        for plot in (*figures.PLOTS, *law_figures.PLOTS):
-            charts.save_as(plot.draw(cases), folder / f"{plot.name}.svg", "svg")
+        for name, draw in {**figures.DRAWN, **law_figures.DRAWN}.items():
+            charts.save_as(draw(cases), folder / f"{name}.svg", "svg")
     for case in cases.values():
         (folder / f"steps_{case.name}.md").write_text(steps_table(case), encoding="utf-8")
-    (folder / "sensitivities.md").write_text(sensitivity_table(), encoding="utf-8")
+    for name, rows in (("sensitivities", None), ("largest", 3)):
+        (folder / f"{name}.md").write_text(sensitivity_table(rows), encoding="utf-8")
 
 
 def steps_table(case) -> str:
@@ -39,7 +40,7 @@ def steps_table(case) -> str:
         ]
         for i, effect in enumerate(effects(case))
     ]
-    return _table([heading, ["---", *["---:"] * (len(heading) - 1)], *rows])
+    return markdown_table(heading, rows, numbers=True)
 
 
 def sensitivity_table(rows: int | None = None) -> str:
@@ -56,7 +57,7 @@ def sensitivity_table(rows: int | None = None) -> str:
         ]
         for first in every["catalogue"][:rows]
     ]
-    return _table([heading, ["---"] * len(heading), *rows])
+    return markdown_table(heading, rows)
 
 
 def numbers() -> dict[str, str]:
@@ -83,6 +84,9 @@ def numbers() -> dict[str, str]:
         _, steep = curves.over_lead(case)
         share = steep.contributions["helix"][-1] / steep.screw_torque[-1]
         found[f"{name}_steep"] = f"{float(share):.0%}".replace("%", " %")
+    regime = light_loads(PAPER)[0]
+    a_ball = float(PAPER.result(reference).contact_load) / PAPER.axial_load
+    found |= {"paper_regime": f"{regime:.0f}", "paper_regime_ball": f"{regime * a_ball:.1f}"}
     found["catalogue_light_efficiency"] = f"{float(CATALOGUE.result(reference, axial_load=1.0).efficiency):.2f}"
     return found
 
@@ -97,17 +101,6 @@ def light_loads(case) -> tuple[float, float, float]:
     return flagged(case, "elastic_regime"), flagged(case, "skid"), flagged(case, "skid", FAST * RPM)
 
 
-def light_load_words(case) -> str:
-    """The same loads in two sentences."""
-    film, skid, fast = light_loads(case)
-    a_ball = float(case.result(FrictionModel.reference()).contact_load) / case.axial_load
-    return (
-        f"At {case.title} and {case.screw_speed / RPM:.0f} rpm the contact leaves the elastic regime of the film law"
-        f" below {film:.0f} N on the nut ({film * a_ball:.1f} N a ball), and the ball skids below {skid:.0f} N"
-        f" ({skid * a_ball:.1f} N a ball). Both loads grow with speed: at {FAST} rpm it skids below {fast:.0f} N."
-    )
-
-
 def _signed(value: float) -> str:
     return f"{value:+.4f}".replace("-", "−")
 
@@ -115,11 +108,3 @@ def _signed(value: float) -> str:
 def _span(sensitivity) -> str:
     low, high = (f"{100 * bound:+.0f}".replace("-", "−") for bound in (sensitivity.lowest, sensitivity.highest))
     return f"{low if sensitivity.lowest else '0'} to {high if sensitivity.highest else '0'} %"
-
-
-def _table(lines) -> str:
-    def rows() -> Iterator[str]:
-        for line in lines:
-            yield "| " + " | ".join(line) + " |\n"
-
-    return "".join(rows())

@@ -9,6 +9,7 @@ from typing import Any
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.units import shown
 from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of, name_of_law
+from ballscrew.questions.shared.text_tables import markdown_table
 
 #: Purpose of each slot.
 SLOTS = {
@@ -32,13 +33,13 @@ _NAMED = ("olaru2005", "corrected", "reference")
 
 def slots_table() -> str:
     """Laws of each named model by slot, with the names of the case file."""
-    lines = [["slot", "purpose", *(f"`{name}`" for name in _NAMED)], ["---"] * (len(_NAMED) + 2)]
+    lines: list[list[str]] = []
     for slot in LAWS:
         names = [_in_slot(slot, getattr(MODELS[name], slot)) for name in _NAMED]
         # bold where it differs from the model before
         marked = [n if i == 0 or n == names[i - 1] else f"**{n}**" for i, n in enumerate(names)]
         lines.append([f"`{slot}`", SLOTS[slot], *marked])
-    return _table(lines)
+    return markdown_table(("slot", "purpose", *(f"`{name}`" for name in _NAMED)), lines)
 
 
 def _in_slot(slot: str, law: Any) -> str:
@@ -56,25 +57,21 @@ def _in_slot(slot: str, law: Any) -> str:
 
 def laws_table() -> str:
     """Every law by slot and name, with the first sentence of its docstring and its coefficients."""
-    lines = [["slot", "name", "description", "coefficients and their defaults"], ["---"] * 4]
+    lines: list[list[str]] = []
     for slot, known in LAWS.items():
         for name, law in known.items():
             lines.append([f"`{slot}`", f"`{name}`", _says(law), ", ".join(_coefficients(slot, name, law))])
-    return _table(lines)
+    return markdown_table(("slot", "name", "description", "coefficients and their defaults"), lines)
 
 
 def _says(law: Any) -> str:
     if law is None:
         return "a constant, the full-film coefficient of the friction law"
     first = (law.__doc__ or "").partition("\n\n")[0]
-    return " ".join(first.split()).replace("|", r"\|")
+    return " ".join(first.split())
 
 
 def _coefficients(slot: str, name: str, law: Any) -> Iterator[str]:
     defaults = {field.name: field.default for field in dataclasses.fields(law)} if isinstance(law, type) else {}
     for field, quantity in coefficients_of(slot, name).items():
         yield f"`{field}` {shown(defaults[field], quantity)}"
-
-
-def _table(lines: list[list[str]]) -> str:
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)

@@ -1,4 +1,4 @@
-"""Write what the program produces into README, page on agreement and first steps: tables and outputs.
+"""Write what the program produces into README and first steps: a table, and outputs of examples.
 
 ``python docs/make_readme.py`` (or ``make readme``) rewrites them in place.
 """
@@ -7,21 +7,15 @@ import contextlib
 import io
 import re
 import sys
-import textwrap
 from collections.abc import Callable
 from pathlib import Path
-
-from ballscrew.questions.reproduce.reproduction import claims_table
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tests")]
 
-from accuracy_table import short_table  # noqa: E402  (after the path of its folder)
-from effect_study.cases import PAPER  # noqa: E402  (likewise)
-from effect_tables import light_load_words, sensitivity_table  # noqa: E402  (likewise)
-from validation_tables import agreement_table, vendors_in_words, vendors_table  # noqa: E402  (likewise)
+from validation_tables import agreement_table  # noqa: E402  (after the path of its folder)
 
-README, AGREEMENT, START = HERE.parent / "README.md", HERE / "agreement.md", HERE / "start.md"
+README, START = HERE.parent / "README.md", HERE / "start.md"
 
 
 def with_block(text: str, name: str, block: str) -> str:
@@ -30,31 +24,6 @@ def with_block(text: str, name: str, block: str) -> str:
     before, rest = text.split(begin)
     _, after = rest.split(end)
     return f"{before}{begin}\n{block}{end}{after}"
-
-
-def with_claims(text: str) -> str:
-    """The page with the current table of the paper's claims."""
-    return with_block(text, "claims", claims_table())
-
-
-def with_accuracy(text: str) -> str:
-    """The page with the current table of the reference model against the contact integral; takes some seconds."""
-    return with_block(text, "accuracy", short_table())
-
-
-def with_vendors(text: str) -> str:
-    """The page with the current comparison with vendors, as a table and in words; takes a few seconds."""
-    return with_block(with_block(text, "vendors", vendors_table()), "vendors in words", vendors_in_words())
-
-
-def with_sensitivities(text: str) -> str:
-    """The page with the three inputs that move the torque most as computed now."""
-    return with_block(text, "sensitivities", sensitivity_table(rows=3))
-
-
-def with_light_load(text: str) -> str:
-    """The page with the loads at which the paper's screw skids as computed now."""
-    return with_block(text, "light load", textwrap.fill(light_load_words(PAPER), 130) + "\n")
 
 
 def with_agreement(text: str) -> str:
@@ -82,7 +51,6 @@ def with_examples(text: str) -> str:
 #: What is written into each page.
 WRITTEN: dict[Path, tuple[Callable[[str], str], ...]] = {
     README: (with_agreement, with_examples),
-    AGREEMENT: (with_claims, with_accuracy, with_vendors, with_sensitivities, with_light_load),
     START: (with_examples,),
 }
 

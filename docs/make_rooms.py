@@ -11,6 +11,7 @@ import ast
 import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -105,31 +106,12 @@ def cohesion(name: str, place: Callable[[str], str]) -> float:
 
 
 def cycles(graph: Mapping[str, frozenset[str]]) -> list[list[str]]:
-    """The strongly connected components with more than one member (Tarjan 1972)."""
-    number: dict[str, int] = {}
-    low: dict[str, int] = {}
-    stack: list[str] = []
-    found: list[list[str]] = []
-
-    def visit(node: str) -> None:
-        number[node] = low[node] = len(number)
-        stack.append(node)
-        for other in sorted(graph.get(node, ())):
-            if other not in number:
-                visit(other)
-                low[node] = min(low[node], low[other])
-            elif other in stack:
-                low[node] = min(low[node], number[other])
-        if low[node] == number[node]:
-            component = stack[stack.index(node) :]
-            del stack[stack.index(node) :]
-            if len(component) > 1:
-                found.append(sorted(component))
-
-    for node in sorted(graph):
-        if node not in number:
-            visit(node)
-    return found
+    """The members of a circle; none where there is no circle."""
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        return [sorted(set(error.args[1]))]
+    return []
 
 
 def lines_of(path: Path) -> int:
@@ -140,15 +122,8 @@ def lines_of(path: Path) -> int:
 def heights(graph: Mapping[str, frozenset[str]]) -> dict[str, int]:
     """Longest way down from each place."""
     found: dict[str, int] = {}
-
-    def height(name: str) -> int:
-        if name not in found:
-            found[name] = 0  # ends the recursion in a circle, which the test reports
-            found[name] = 1 + max((height(other) for other in graph[name]), default=0)
-        return found[name]
-
-    for name in sorted(graph):
-        height(name)
+    for name in TopologicalSorter(graph).static_order():
+        found[name] = 1 + max((found[other] for other in graph[name]), default=0)
     return found
 
 

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -14,13 +12,16 @@ import typst
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
+sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
+from page import chromium
+from serve import server
+
 ROOT = Path(__file__).parents[1]
 IMAGES = ROOT / "docs" / "images"
 CASE = ROOT / "examples" / "catalogue_screw.toml"
 START = ROOT / "out" / "docs" / "index.html"
 DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
-BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 #: The page without a server, and the case that it shows.
 STATIC, STATIC_SIZE = f"A={DOUBLE}", {"width": 1360, "height": 860}
 COMMAND = [sys.executable, "-m", "ballscrew.faces.cli"]
@@ -153,24 +154,14 @@ def of_docs(browser: Browser) -> None:
 def main() -> None:
     """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
-    chromium = next(filter(None, map(shutil.which, BROWSERS)), None)
-    server = subprocess.Popen([*COMMAND, "serve", "--port", "0"], stdout=subprocess.PIPE, encoding="utf-8")
-    try:
-        assert server.stdout is not None
-        found = re.search(r"http://\S+", server.stdout.readline())
-        assert found
-        with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
-            of_page(browser, found[0])
-            of_cards(browser, found[0])
-            of_print(browser, found[0])
-            of_static_page(browser)
-            of_report()
-            of_docs(browser)
-            browser.close()
-    finally:
-        server.terminate()
-        server.wait()
+    with server() as (_, address), sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
+        for pictures in (of_page, of_cards, of_print):
+            pictures(browser, address)
+        of_static_page(browser)
+        of_report()
+        of_docs(browser)
+        browser.close()
 
 
 if __name__ == "__main__":

@@ -1,13 +1,16 @@
 """Figures of the page on nuts, and the accuracy of the slip law of four contacts."""
 
+import sys
 from pathlib import Path
 
-from accuracy_table import printed
 from ballscrew.questions.shared import charts
 from effect_study import nut_figures
 
+sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
+import four_point
+
 #: Random screws of the table: a quarter of those of the benchmark tell the same, in a quarter of its 40 s.
-CASES = "150"
+CASES = 150
 
 
 def write(folder: Path) -> None:
@@ -16,4 +19,4 @@ def write(folder: Path) -> None:
     with charts.house_style():
         for name, draw in nut_figures.DRAWN.items():
             charts.save_as(draw(), folder / f"{name}.svg", "svg")
-    (folder / "four_point.md").write_text(printed("four_point", "--markdown", "--cases", CASES), encoding="utf-8")
+    (folder / "four_point.md").write_text(four_point.table(CASES), encoding="utf-8")

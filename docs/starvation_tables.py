@@ -23,6 +23,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.physics.friction.starvation import differs
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.run.compute import run
+from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.warm_up.compute import load, warmed_up
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -102,11 +103,8 @@ def table() -> str:
     """Rows are temperatures; a cell is starved → full bath where the two differ, or else one number."""
     found = {degrees: answers(degrees) for degrees in TEMPERATURES}
     heads = list(found[TEMPERATURES[0]])
-    lines = ["| °C | " + " | ".join(heads) + " |", "|---:|" + "---:|" * len(heads)]
-    lines += [
-        f"| {degrees} | " + " | ".join(_shown(row[head]) for head in heads) + " |" for degrees, row in found.items()
-    ]
-    return "\n".join(lines) + "\n"
+    rows = [[str(degrees), *(_shown(row[head]) for head in heads)] for degrees, row in found.items()]
+    return markdown_table(("°C", *heads), rows, numbers=True)
 
 
 def _shown(cell: Cell) -> str:

@@ -18,7 +18,7 @@ from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.physics.laws.friction import LoadSharing
 from ballscrew.questions.shared import charts
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, Case
-from effect_study.effect_figures import SPEED, case_caption, mathtext, titled
+from effect_study.effect_figures import SPEED, case_caption, framed, mathtext, titled
 
 REFERENCE = FrictionModel.reference()
 GIGA, MICRO, MILLI = 1e9, 1e-6, 1e-3
@@ -62,13 +62,15 @@ def section() -> Figure:
         fontsize=9,
         arrowprops={"arrowstyle": "-", "color": charts.GREY},
     )
-    unrolled.set_xlim(-4, turn + 20)
-    unrolled.set_ylim(-22, 42)
-    unrolled.set_aspect("equal")
-    unrolled.set_xlabel("around the screw (mm)")
-    unrolled.set_ylabel("along the axis (mm)")
+    unrolled.set(
+        xlim=(-4, turn + 20),
+        ylim=(-22, 42),
+        aspect="equal",
+        xlabel="around the screw (mm)",
+        ylabel="along the axis (mm)",
+        title="One turn of the helix",
+    )
     unrolled.legend(loc="upper left")
-    unrolled.set_title("One turn of the helix")
     return figure
 
 
@@ -103,12 +105,9 @@ def _grooves(panel: Axes, diameter: float, conformity: float, angle: float) -> N
         arrowprops={"arrowstyle": "-", "color": charts.GREY, "linewidth": 0.8, "shrinkB": 1},
     )  # fmt: skip
     reach = 1.62 * radius
-    panel.set_xlim(-reach, reach)
-    panel.set_ylim(-reach, reach)
-    panel.set_aspect("equal")
+    panel.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
     panel.grid(visible=False)
-    panel.set_xlabel("along the axis (mm)")
-    panel.set_ylabel("away from the axis (mm)")
+    framed(panel, "along the axis (mm)", "away from the axis (mm)")
 
 
 def speeds() -> Figure:
@@ -142,12 +141,15 @@ def speeds() -> Figure:
     profile.annotate(
         f"ball centre\n{centre:.2f} m/s", (L / MILLI, centre), xytext=(6, 8), textcoords="offset points", fontsize=9
     )
-    profile.set_xlabel("distance from the screw axis (mm)")
-    profile.set_ylabel("speed along the path (m/s)")
-    profile.set_title("Rolling without slip")
-    profile.set_xlim(0, 26)
-    profile.set_ylim(-0.06, 1.6)
-    profile.legend(loc="upper left")
+    framed(
+        profile,
+        "distance from the screw axis (mm)",
+        "speed along the path (m/s)",
+        "Rolling without slip",
+        xlim=(0, 26),
+        ylim=(-0.06, 1.6),
+        legend="upper left",
+    )
     lead = np.linspace(0, 0.04, 81)
     phi = geometry.lead_angle(lead, case.screw.pitch_circle_diameter)
     path = geometry.path_radius(case.screw.pitch_circle_diameter, phi)
@@ -160,12 +162,9 @@ def speeds() -> Figure:
         lead / MILLI, 100 * (entrainment / entrainment[0] - 1), color=charts.BLUE, label="more entrainment speed v"
     )
     leads.plot(lead / MILLI, 100 * lateral / entrainment, color=charts.RED, ls="--", label="lateral slip D, of v")
-    leads.set_xlabel(mathtext("lead P_h (mm)"))
-    leads.set_ylabel("per cent")
-    leads.set_title("What the helix changes")
-    leads.set_xlim(0, 40)
-    leads.set_ylim(bottom=0)
-    leads.legend(loc="upper left")
+    framed(
+        leads, "lead P_h (mm)", "per cent", "What the helix changes", xlim=(0, 40), ylim=(0, None), legend="upper left"
+    )
     return figure
 
 
@@ -199,10 +198,7 @@ def ellipses() -> Figure:
         shape.set_aspect("equal", adjustable="datalim")
         shape.set_ylabel("along the path (mm)")
         shape.tick_params(labelbottom=True)
-        profile.set_ylim(0, 2.4)
-        profile.set_xlabel("across the path y (mm)")
-        profile.set_ylabel("pressure p (GPa)")
-        profile.legend(loc="upper right")
+        framed(profile, "across the path y (mm)", "pressure p (GPa)", ylim=(0, 2.4), legend="upper right")
     return figure
 
 
@@ -230,17 +226,14 @@ def fits() -> Figure:
         at = float(case.result(REFERENCE).screw.radii_ratio)
         for panel in (axes, shape):
             panel.axvline(at, color=charts.GREY, linestyle=":", linewidth=1.1)
-    axes.set_ylabel("error of the semi-axis (%)")
-    axes.set_title("Fits")
+    axes.set(ylabel="error of the semi-axis (%)", title="Fits")
     axes.legend(loc="upper left")
     shape.loglog(k, kappa, color=charts.INK, label="exact")
     shape.loglog(k, power, color=charts.ORANGE, ls="--", label="Brewe and Hamrock")
-    shape.set_ylabel("ellipticity κ = a/b (1)")
-    shape.set_title("Slender contacts")
+    shape.set(ylabel="ellipticity κ = a/b (1)", title="Slender contacts")
     shape.legend(loc="upper left")
     for panel in (axes, shape):
-        panel.set_xlabel(mathtext("radii ratio k = R_y/R_x (1)"))
-        panel.set_xlim(1, 100)
+        panel.set(xlabel=mathtext("radii ratio k = R_y/R_x (1)"), xlim=(1, 100))
         panel.set_xticks([1, 2, 5, 10, 20, 50, 100], ["1", "2", "5", "10", "20", "50", "100"])
         panel.minorticks_off()
     shape.set_yticks([1, 2, 5, 10, 20], ["1", "2", "5", "10", "20"])
@@ -274,11 +267,7 @@ def films() -> Figure:
         )
     rough = float(film.combined_roughness(PAPER.screw.ball_roughness, PAPER.screw.screw_roughness)) / MICRO
     speed_panel.axhline(rough, color=charts.INK, linestyle=(0, (1, 2)), linewidth=1)
-    speed_panel.set_xlabel(SPEED)
-    speed_panel.set_ylabel("minimum film h (µm)")
-    speed_panel.set_title("Film over speed")
-    speed_panel.legend(loc="lower right")
-    speed_panel.set_xlim(1, 3000)
+    framed(speed_panel, SPEED, "minimum film h (µm)", "Film over speed", xlim=(1, 3000), legend="lower right")
     temperature = np.linspace(0, 90, 91)
     for grade, line in GRADES.items():
         values = [_film_parameter(CATALOGUE, grade, t + CELSIUS) for t in temperature]
@@ -287,10 +276,7 @@ def films() -> Figure:
     heat_panel.set_xlim(0, 90)
     heat_panel.set_yticks([0.1, 0.2, 0.5, 1, 2, 5], ["0.1", "0.2", "0.5", "1", "2", "5"])
     heat_panel.minorticks_off()
-    heat_panel.set_xlabel("temperature of the oil (°C)")
-    heat_panel.set_ylabel("film parameter λ (1)")
-    heat_panel.set_title("Cold and warm")
-    heat_panel.legend(loc="upper right")
+    framed(heat_panel, "temperature of the oil (°C)", "film parameter λ (1)", "Cold and warm", legend="upper right")
     return figure
 
 
@@ -322,15 +308,13 @@ def rolling_parts() -> Figure:
     oil.loglog(Q, rigid, color=charts.ORANGE, ls="--", label="rigid, constant viscosity")
     oil.loglog(Q, elastic, color=charts.GREEN, ls="--", label="elastic, viscosity grows")
     oil.loglog(Q, blend, color=charts.BLUE, label="blend")
-    oil.set_ylabel(mathtext("rolling force F_R (N)"))
-    oil.set_title("The oil of the inlet")
+    oil.set(ylabel=mathtext("rolling force F_R (N)"), title="The oil of the inlet")
     low, high = (rolling.hysteresis_moment(loss, Q, contact.semi_minor_axis) * 1e3 for loss in (0.02, 0.04))
     steel.fill_between(Q, low, high, color=charts.SHADE, label="(3/16) α Q b")
     steel.loglog(
         Q, rolling.elastic_resistance_moment(PAPER.screw.ball_diameter, Q, k) * 1e3, color=charts.BLUE, label="(20)"
     )
-    steel.set_ylabel(mathtext("elastic moment M_ER (N mm)"))
-    steel.set_title("The steel")
+    steel.set(ylabel=mathtext("elastic moment M_ER (N mm)"), title="The steel")
     for panel in (oil, steel):
         panel.set_xlabel("load of the ball Q (N)")
         panel.legend(loc="upper left")
@@ -357,10 +341,7 @@ def mixed_friction() -> Figure:
             for words, model, line in (("clamped", clamped, "--"), ("shared", shared, "-")):
                 values = warm.result(model, screw_speed=speed * RPM).screw.friction_coefficient
                 panel.semilogx(speed, values, color=colour, ls=line, label=f"{celsius} °C, {words}")
-        panel.set_xlabel(SPEED)
-        panel.set_ylabel(mathtext("friction coefficient µ_m (1)"))
-        panel.set_xlim(0.3, 3000)
-        panel.set_ylim(0, 0.22)
+        framed(panel, SPEED, "friction coefficient µ_m (1)", xlim=(0.3, 3000), ylim=(0, 0.22))
     panels[1].tick_params(labelleft=True)
     panels[0].legend(loc="lower left")
     return figure

@@ -17,7 +17,7 @@ from ballscrew.physics.solvers.line_slip import creep_of_lines, pure_rolling_lin
 from ballscrew.questions.shared import charts
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM
 from effect_study.curves import over_lead
-from effect_study.effect_figures import case_caption, mathtext
+from effect_study.effect_figures import case_caption, framed, mathtext
 
 REFERENCE = FrictionModel.reference()
 CELSIUS = 273.15
@@ -42,23 +42,29 @@ def slip_lines() -> Figure:
         at = [float(found.upper), *([float(found.lower)] if found.are_two else [])]
         profile.plot(at, [0.0] * len(at), "o", color=colour, markersize=5)
     profile.axhline(0, color=charts.GREY, linewidth=0.9)
-    profile.set_xlabel("height in the contact t = y/a (1)")
-    profile.set_ylabel("slip s/C (1)")
-    profile.set_title("Slip with spin")
-    profile.set_xlim(-1, 1)
+    framed(
+        profile,
+        "height in the contact t = y/a (1)",
+        "slip s/C (1)",
+        "Slip with spin",
+        xlim=(-1, 1),
+        legend="upper left",
+    )
     profile.set_xticks([-1, -0.5, 0, 0.5, 1])
-    profile.legend(loc="upper left")
     spin = np.linspace(0, 2.5, 501)
     for T, colour, line in ((0.0, charts.BLUE, "-"), (0.5, charts.RED, "--")):
         found = pure_rolling_lines(spin, np.full_like(spin, T))
         lines.plot(spin, found.upper, color=colour, ls=line, label=f"T = {T:g}")
         lines.plot(spin, np.where(found.are_two, found.lower, np.nan), color=colour, ls=line)
-    lines.set_xlabel(mathtext("spin parameter E_s (1)"))
-    lines.set_ylabel("heights of pure rolling (1)")
-    lines.set_title("Two lines, then one")
-    lines.set_xlim(0, 2.5)
-    lines.set_ylim(-1.05, 1.05)
-    lines.legend(loc="upper right")
+    framed(
+        lines,
+        "spin parameter E_s (1)",
+        "heights of pure rolling (1)",
+        "Two lines, then one",
+        xlim=(0, 2.5),
+        ylim=(-1.05, 1.05),
+        legend="upper right",
+    )
     return figure
 
 
@@ -99,8 +105,7 @@ def power() -> Figure:
         panel.set_yticks(range(len(models)), ["as printed", "corrected", "reference"])
         panel.invert_yaxis()
         panel.grid(visible=False, axis="y")
-        panel.set_xlim(0, 1.25 * largest)
-        panel.set_xlabel("power (W)")
+        panel.set(xlim=(0, 1.25 * largest), xlabel="power (W)")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=4)
     return figure
 
@@ -128,9 +133,7 @@ def quadrants() -> Figure:
     four.axhline(0, color=charts.INK, linewidth=1)
     names = ["screw drives\nforward", "load drives\nin reverse", "screw drives\nin reverse", "load drives\nforward"]
     four.set_xticks(range(4), names, fontsize=8.5)
-    four.set_ylabel("torque on the shaft (N m)")
-    four.set_title("Four quadrants")
-    four.set_ylim(-1.4 * ideal, 1.75 * ideal)
+    four.set(ylabel="torque on the shaft (N m)", title="Four quadrants", ylim=(-1.4 * ideal, 1.75 * ideal))
     four.grid(visible=False, axis="x")
     four.legend(loc="upper right", ncols=2)
     _efficiencies(leads)
@@ -154,11 +157,7 @@ def _efficiencies(panel: Axes) -> None:
     panel.plot(angle, found.back_driving_efficiency, color=charts.BLUE, ls="--", label="load drives")
     panel.axhspan(-0.3, 0, color=charts.LIGHT_SHADE, zorder=0)
     panel.text(10, -0.15, "the screw locks itself", fontsize=9, color=charts.GREY, ha="center", va="center")
-    panel.set_xlabel("lead angle φ (°)")
-    panel.set_ylabel("efficiency (1)")
-    panel.set_title("Over the lead angle")
-    panel.set_xlim(0, 20)
-    panel.set_ylim(-0.3, 1.03)
+    framed(panel, "lead angle φ (°)", "efficiency (1)", "Over the lead angle", xlim=(0, 20), ylim=(-0.3, 1.03))
     panel.legend(loc="lower right", bbox_to_anchor=(1, 0.24))
 
 
@@ -181,12 +180,15 @@ def halves() -> Figure:
     springs.text(at + 0.06, (low + high) / 2, "load on the nut F", fontsize=9, va="center")
     springs.plot(0, 1, "o", color=charts.INK, markersize=5)
     springs.annotate("preload", (0, 1), xytext=(-52, -4), textcoords="offset points", fontsize=9, va="center")
-    springs.set_xlabel("displacement of the nut x (1)")
-    springs.set_ylabel("load of the half / preload (1)")
-    springs.set_title("Two springs against each other")
-    springs.set_xlim(-1.2, 1.6)
-    springs.set_ylim(0, 4.3)
-    springs.legend(loc="upper left")
+    framed(
+        springs,
+        "displacement of the nut x (1)",
+        "load of the half / preload (1)",
+        "Two springs against each other",
+        xlim=(-1.2, 1.6),
+        ylim=(0, 4.3),
+        legend="upper left",
+    )
     x = np.linspace(0, 1.4, 281)
     loads = preload.forward_half_load(1.0, x), preload.backward_half_load(1.0, x)
     outside = loads[0] - loads[1]
@@ -194,12 +196,15 @@ def halves() -> Figure:
     shares.plot(outside, loads[1], color=charts.RED, ls="--", label="half that is relieved")
     shares.plot(outside, outside, color=charts.GREY, linewidth=1, label="without preload")
     shares.axvline(float(preload.lift_off_load(1.0)), color=charts.GREY, linestyle=":", linewidth=1.2)
-    shares.set_xlabel("load on the nut / preload (1)")
-    shares.set_ylabel("load of the half / preload (1)")
-    shares.set_title("Who carries the load")
-    shares.set_xlim(0, float(outside[-1]))
-    shares.set_ylim(0, 4.3)
-    shares.legend(loc="upper left")
+    framed(
+        shares,
+        "load on the nut / preload (1)",
+        "load of the half / preload (1)",
+        "Who carries the load",
+        xlim=(0, float(outside[-1])),
+        ylim=(0, 4.3),
+        legend="upper left",
+    )
     return figure
 
 
@@ -221,21 +226,22 @@ def lives() -> Figure:
             ls=line,
             label=f"preload {share:.0%}".replace("%", " %"),
         )
-    by_load.set_xlabel(mathtext("load on the nut F/C_a (1)"))
-    by_load.set_ylabel("life (revolutions)")
-    by_load.set_title("Over the load")
-    by_load.set_xlim(0, 0.4)
-    by_load.legend(loc="upper right")
+    framed(
+        by_load, "load on the nut F/C_a (1)", "life (revolutions)", "Over the load", xlim=(0, 0.4), legend="upper right"
+    )
     share = np.linspace(0.005, 0.2, 196)
     for at, colour, line in zip((0.05, 0.1, 0.2), charts.GROWING[1:], charts.LINE_STYLES, strict=False):
         kept = double_nut_life(rating, np.full_like(share, at), share) / life.basic_life(rating, at)
         by_preload.plot(share, kept, color=colour, ls=line, label=f"load {at:.0%}".replace("%", " %"))
-    by_preload.set_xlabel(mathtext("preload F_pr/C_a (1)"))
-    by_preload.set_ylabel("life / life without preload (1)")
-    by_preload.set_title("What a preload costs")
-    by_preload.set_xlim(0, 0.2)
-    by_preload.set_ylim(0, 1.05)
-    by_preload.legend(loc="upper right")
+    framed(
+        by_preload,
+        "preload F_pr/C_a (1)",
+        "life / life without preload (1)",
+        "What a preload costs",
+        xlim=(0, 0.2),
+        ylim=(0, 1.05),
+        legend="upper right",
+    )
     return figure
 
 
@@ -265,9 +271,7 @@ def repair_steps() -> Figure:
         for row, torque in enumerate(torques):
             panel.text(torque, row, f" {torque:.4f}", va="center", fontsize=9)
         panel.axvline(torques[0], color=charts.INK, linestyle=":", linewidth=1)
-        panel.set_title(title)
-        panel.set_xlabel(mathtext("friction torque M_S (N m)"))
-        panel.set_xlim(0, 1.22 * max(torques))
+        panel.set(title=title, xlabel=mathtext("friction torque M_S (N m)"), xlim=(0, 1.22 * max(torques)))
         panel.grid(visible=False, axis="y")
     alone.set_yticks(range(len(found)), [mathtext(step.description) for step in found], fontsize=8.5)
     alone.invert_yaxis()

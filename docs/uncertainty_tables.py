@@ -1,11 +1,12 @@
 """Parts of the page on uncertainty: default uncertainties, a figure, and the coverage of vendors' rows.
 
-``python docs/uncertainty_tables.py`` prints the coverage, which takes minutes; with ``--write`` into docs/coverage.inc.
+``python docs/uncertainty_tables.py`` prints the coverage, which takes minutes: too slow for each build of the pages;
+with ``--write`` into docs/coverage.inc.
 """
 
 from __future__ import annotations
 
-import argparse
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -20,12 +21,14 @@ from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band.sheet import sheet
 from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate.compute import evaluate, request
 from ballscrew.questions.validate.uncertainty import with_bands
 
+sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
+from harness import study
+
 EXAMPLES = Path(__file__).parents[1] / "examples"
-#: Where the coverage stands: too slow for each build of the pages.
-PAGE = Path(__file__).parent / "coverage.inc"
 #: Sets of torques without load of ball screws.
 SETS_COVERED = ("rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-jis", "xjtu")
 #: What was made of rows before, the most of it first.
@@ -50,11 +53,9 @@ def write(folder: Path) -> None:
 
 def assumed_table() -> str:
     """Default uncertainties of numbers that users rarely know."""
-    rows = [
-        f"| `{name}` | {_spread(one)} | {_source(one)} | {one.reason} |"
-        for name, one in default_uncertainties().items()
-    ]
-    return "\n".join(["| input | 95 % lie | source | reason |", "|---|---|---|---|", *rows]) + "\n"
+    every = default_uncertainties().items()
+    rows = [(f"`{name}`", _spread(one), _source(one), one.reason) for name, one in every]
+    return markdown_table(("input", "95 % lie", "source", "reason"), rows)
 
 
 def _spread(one: DefaultUncertainty) -> str:
@@ -84,10 +85,6 @@ class Covered(NamedTuple):
 
 def coverage_table() -> str:
     """Number of stated torques inside, below and above the model's 95 % interval of their row, and its width."""
-    lines = [
-        "| maker | nuts | model | these rows | in the band | below it | above it | high / low of the band, median |",
-        "|---|---|---|---|---:|---:|---:|---:|",
-    ]
     grouped: dict[tuple[str, ...], list[Covered]] = {}
     for entries, _ in evaluate(request(SETS_COVERED)):
         for entry in entries:
@@ -99,9 +96,21 @@ def coverage_table() -> str:
                 nuts = f"two torques, {point.group} that it could be" if entry.data.alternatives else point.group
                 key = (entry.data.maker, nuts, label, _use(entry, point))
                 grouped.setdefault(key, []).append(_covered(entry, point))
-    for key, those in sorted(grouped.items(), key=lambda item: (item[0][2] != "reference", _USES.index(item[0][3]))):
-        lines.append(f"| {' | '.join(key)} | {_counts(those)} | {np.median([one.width for one in those]):.1f} |")
-    return "\n".join(lines) + "\n"
+    heads = (
+        "maker",
+        "nuts",
+        "model",
+        "these rows",
+        "in the band",
+        "below it",
+        "above it",
+        "high / low of the band, median",
+    )
+    rows = [
+        [*key, *_counts(those), f"{np.median([one.width for one in those]):.1f}"]
+        for key, those in sorted(grouped.items(), key=lambda one: (one[0][2] != "reference", _USES.index(one[0][3])))
+    ]
+    return markdown_table(heads, rows)
 
 
 def _use(entry: Entry, point: Point) -> str:
@@ -123,21 +132,10 @@ def _covered(entry: Entry, point: Point) -> Covered:
     return Covered(tuple(places), high / low)
 
 
-def _counts(those: Sequence[Covered]) -> str:
+def _counts(those: Sequence[Covered]) -> list[str]:
     places = [place for one in those for place in one.places]
-    return " | ".join(f"{places.count(place)} of {len(places)}" for place in ("in", "below", "above"))
-
-
-def main() -> None:
-    """Print or write the coverage."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--write", action="store_true", help=f"into {PAGE.name}")
-    table = coverage_table()
-    if parser.parse_args().write:
-        PAGE.write_text(table, encoding="utf-8")
-    else:
-        print(table)
+    return [f"{places.count(place)} of {len(places)}" for place in ("in", "below", "above")]
 
 
 if __name__ == "__main__":
-    main()
+    study(__doc__, coverage_table, "coverage.inc")

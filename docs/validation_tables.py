@@ -5,10 +5,9 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-import textwrap
+import sys
 from pathlib import Path
 
-from accuracy_table import printed
 from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Table
 from ballscrew.basis.output.sheet import words as written
@@ -21,7 +20,11 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.rules import RULES
 from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute, sheet
+
+sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
+import fit_calibration
 
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
 #: Sets of more rows are neither printed nor drawn row by row.
@@ -43,10 +46,12 @@ def write(folder: Path) -> None:
     asked, sets = found()
     pages = {
         "summary.md": summary(),
+        "vendors.md": vendors_table(),
+        "agreement.md": agreement_table(),
         "calibration.md": calibration_table(),
-        "rivals.md": printed("fit_calibration", "--rivals"),
-        "strata.md": printed("fit_calibration", "--strata"),
-        "laws.md": printed("fit_calibration", "--trends"),
+        "rivals.md": fit_calibration.rivals_table(),
+        "strata.md": fit_calibration.strata_table(),
+        "laws.md": fit_calibration.trends_table(),
         "trends.md": trends_table(),
         "definitions.md": definitions_table(),
         "oil.md": oil_table(),
@@ -77,7 +82,6 @@ def _rows(entries, asked) -> str:
 def summary() -> str:
     """One row for each set and model."""
     lines = [["set", "model", "n", "mean ratio", "scatter", "in the vendor's band"]]
-    lines.append(["---"] * len(lines[0]))
     for entry in _entries():
         share = "no band" if entry.share_in_band is None else _percent(entry.share_in_band)
         scatter = f"{entry.std_ratio:.3f}" if len(entry.counted) > 1 else "–"
@@ -98,7 +102,7 @@ def _of_makers():
 def _of_sheet(table: Table) -> str:
     """A table of a sheet as Markdown, where a dot takes the place of an indent."""
     rows = [[written(cell, with_unit=not table.is_compact).replace("  ", "· ") for cell in row] for row in table.rows]
-    return _table([table.columns, ["---"] * len(table.columns), *rows])
+    return markdown_table(table.columns, rows)
 
 
 def makers_table() -> str:
@@ -108,7 +112,7 @@ def makers_table() -> str:
 
 def used_table() -> str:
     """The choices of the model that were made with the rows of a set in sight."""
-    lines = [["set", "chosen or fitted with its rows in sight"], ["---"] * 2]
+    lines = [["set", "chosen or fitted with its rows in sight"]]
     for entries in found()[1]:
         lines.append([f"`{entries[0].data.name}`", "; ".join(entries[0].used_for) or "nothing"])
     return _table(lines)
@@ -123,7 +127,7 @@ def groups_table(name: str) -> str:
 
 def rules_table() -> str:
     """Rules of one line over the same rows as the model."""
-    lines = [["set", "what", "mean ratio", "scatter", "in the band"], ["---"] * 5]
+    lines = [["set", "what", "mean ratio", "scatter", "in the band"]]
     for entries in found()[1]:
         if not entries[0].rules:
             continue
@@ -142,14 +146,14 @@ def rules_table() -> str:
 
 def sources_table() -> str:
     """The rules of one line with their formulas and sources."""
-    lines = [["rule", "formula", "source", "what was checked", "range"], ["---"] * 5]
+    lines = [["rule", "formula", "source", "what was checked", "range"]]
     lines += [[rule.title, rule.formula, rule.source, rule.checked, rule.range] for rule in RULES.values()]
     return _table(lines)
 
 
 def residuals_after_rules() -> str:
     """Scatter of the logarithm of the ratio: what a law leaves open once a factor of its own is fitted to the set."""
-    lines = [["set", "what", "factor that is left", "scatter of the ratio about it"], ["---"] * 4]
+    lines = [["set", "what", "factor that is left", "scatter of the ratio about it"]]
     for entries in found()[1]:
         points = entries[0].points
         if entries[0].data.alternatives or not entries[0].rules or len(points) < 3:
@@ -190,7 +194,6 @@ def vendors_table() -> str:
     """Comparison with vendors and a laboratory, one row for each set, for the page on agreement."""
     lines = [
         ["stated value", "number", "uncalibrated", "calibrated", "within the vendor's band, before and after"],
-        ["---"] * 5,
     ]
     for words, entries in _lines_of_vendors():
         raw, after = entries[0], entries[-1]
@@ -221,7 +224,7 @@ def agreement_table() -> str:
         ("XJTU, measured", "two new screws of a size not stated; ours: {} that could be these", screws),
         ("Rexroth, tables", "rigidity of {} preloaded double nuts", of["rexroth-rigidity"]),
     ]
-    lines = [["who stated it", "what", "stated", "ours", "ratio"], ["---"] * 5]
+    lines = [["who stated it", "what", "stated", "ours", "ratio"]]
     for who, what, entry in rows:
         quantity = entry.data.quantity
         ends = [(point.band.low, point.band.high) for point in entry.counted if entry.data.alternatives]
@@ -250,75 +253,10 @@ def _lines_of_vendors():
             yield SHORT[data.name], entries
 
 
-#: What stands out in that table, a line for each point.
-VENDORS_IN_WORDS = """
-Uncalibrated, the no-load torque of preloaded nuts is {double_below} (double nuts) and {single_below} (oversize balls)
-below the middle of Rexroth's tables.
-
-Rexroth's own rule of one line, a torque in proportion to preload and diameter, fits its table of double nuts with
-{rule}, the model with {double}. The rule scatters as little as the digits of the table: the table was probably computed
-by it. So agreement with it is agreement with a rule.
-
-THK's worked example of a double nut is missed: {thk:.2f} of its drag, {thk_calibrated:.2f} calibrated. It is computed
-by JIS B 1192, whose rule gives {jis:.2f} of Rexroth's double nuts, and Rexroth's rule {thk_rexroth:.2f} of THK's
-example: the vendors contradict each other, and nothing here tells which is closer to a real screw.
-
-HIWIN's stocked double nuts and nuts with an offset, which nothing was chosen on, have twice the drag of the model at a
-preload of 7 % (the middle of what is called medium; none is printed): {stock_double:.2f} and {stock_offset:.2f}. The
-rule of JIS B 1192 meets them there, with {stock_double_jis:.2f} and {stock_offset_jis:.2f}; the rule that HIWIN prints
-does not, with {stock_double_hiwin:.2f} and {stock_offset_hiwin:.2f}. So THK's example and HIWIN's list go with JIS B
-1192, Rexroth's tables with a rule of Rexroth's own, and HIWIN's rule and list contradict each other at that preload.
-
-Measured are two things. The rolling torque of balls between rings is {rings} of the measured one. Of the two new screws
-of XJTU, the only measured torques of ball screws found in public, neither size nor nut, wipers nor oil are stated. So
-the row has {n} screws that could be theirs, from {low:.2f} to {high:.2f} of the measured torque; {within} lie between
-the two screws. Double nuts are at {least:.2f} to {most:.2f} without wipers and at {sealed_least:.2f} to
-{sealed_most:.2f} with two of them: the row says neither that the model is too low nor that it is right.
-"""
-
-
-def vendors_in_words() -> str:
-    """The points of :data:`VENDORS_IN_WORDS` with their numbers, as a list."""
-    by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
-    double, thk, screws = (by_key[name, False] for name in ("rexroth-double-nut", "thk-jis", "xjtu"))
-    rule = next(rule for rule in double.rules if rule.rule == "rexroth")
-    least, most = screws.groups["double"].range_ratio
-    sealed_least, sealed_most = screws.groups["double, two wipers"].range_ratio
-    stock = by_key["hiwin-stock", False].groups
-    low, high = screws.range_ratio
-    words = VENDORS_IN_WORDS.strip().format(
-        double_below=_percent(1 - double.mean_ratio),
-        single_below=_percent(1 - by_key["rexroth-single-nut", False].mean_ratio),
-        rule=f"{rule.mean_ratio:.3f} ± {rule.std_ratio:.3f}",
-        double=_spread(double),
-        thk=thk.mean_ratio,
-        thk_calibrated=by_key["thk-jis", True].mean_ratio,
-        jis=double.mean_laws["jis"],
-        thk_rexroth=thk.mean_laws["rexroth"],
-        rings=_spread(by_key["balan-2015", False]),
-        n=len(screws.points),
-        low=low,
-        high=high,
-        within=sum(bool(point.in_band) for point in screws.points),
-        least=least,
-        most=most,
-        sealed_least=sealed_least,
-        sealed_most=sealed_most,
-        stock_double=stock["double"].mean_ratio,
-        stock_offset=stock["offset"].mean_ratio,
-        stock_double_jis=stock["double"].mean_laws["jis"],
-        stock_offset_jis=stock["offset"].mean_laws["jis"],
-        stock_double_hiwin=stock["double"].mean_laws["hiwin"],
-        stock_offset_hiwin=stock["offset"].mean_laws["hiwin"],
-    )
-    points = (textwrap.fill(point, 130, initial_indent="- ", subsequent_indent="  ") for point in words.split("\n\n"))
-    return "".join(f"{point}\n" for point in points)
-
-
 def oil_table() -> str:
     """No-load torques at other oil temperatures, which the vendor does not state."""
     names = ("rexroth-double-nut", "rexroth-single-nut")
-    lines = [["oil", *(f"{name}, {who}" for name in names for who in ("uncalibrated", "calibrated"))], ["---"] * 5]
+    lines = [["oil", *(f"{name}, {who}" for name in names for who in ("uncalibrated", "calibrated"))]]
     for temperature in ("15 degC", "25 degC", "40 degC"):
         asked = compute.request(names, temperature=temperature)
         entries = [entry for entries, _ in compute.evaluate(asked) for entry in entries]
@@ -332,7 +270,7 @@ def oil_table() -> str:
 
 def definitions_table() -> str:
     """Results of other definitions of the same value."""
-    lines = [["set", "definition", "mean ratio"], ["---"] * 3]
+    lines = [["set", "definition", "mean ratio"]]
     for entry in _entries():
         if entry.mean_definitions and not (entry.calibration or entry.data.ratio_names or entry.data.bound):
             lines.append(
@@ -348,7 +286,7 @@ def definitions_table() -> str:
 
 def calibration_table() -> str:
     """The calibrated numbers, their errors, and what is left."""
-    lines = [["calibration", "number", "where", "value", "standard error"], ["---"] * 5]
+    lines = [["calibration", "number", "where", "value", "standard error"]]
     words: list[str] = []
     for stored in calibrations().values():
         for (name, where), error in zip(stored.parameters.items(), stored.standard_errors, strict=True):
@@ -363,7 +301,7 @@ def calibration_table() -> str:
 
 def trends_table() -> str:
     """Trends of the ratio over properties of the rows."""
-    lines = [["set", "model", "against", "exponent", "correlation"], ["---"] * 5]
+    lines = [["set", "model", "against", "exponent", "correlation"]]
     for entry in _entries():
         if entry.data.bound or not (entry.data.calibratable or entry.data.name == "balan-2015"):
             continue
@@ -427,9 +365,33 @@ def numbers() -> dict[str, str]:
     small = by_key["thk-stock", False].groups
     for key, group in zip(("small_full", "small_spacers"), small.values(), strict=True):
         values[key] = "{:.2f} to {:.2f}".format(*group.range_ratio)
+    values |= _numbers_of_agreement(by_key)
     double = [one.range_ratio for name, one in by_key["emps", False].groups.items() if name.startswith("double")]
     values["emps_double"] = f"{min(low for low, _ in double):.2f} to {max(high for _, high in double):.2f}"
     return {f"validation_{key}": value for key, value in values.items()}
+
+
+def _numbers_of_agreement(by_key) -> dict[str, str]:
+    """Numbers in the text of the page on agreement."""
+    double, thk, screws = (by_key[name, False] for name in ("rexroth-double-nut", "thk-jis", "xjtu"))
+    stock = by_key["hiwin-stock", False].groups
+    rule = next(rule for rule in double.rules if rule.rule == "rexroth")
+    ranges = {"could_be": screws, "plain": screws.groups["double"], "sealed": screws.groups["double, two wipers"]}
+    return {
+        "double_below": _percent(1 - double.mean_ratio),
+        "single_below": _percent(1 - by_key["rexroth-single-nut", False].mean_ratio),
+        "own_rule": f"{rule.mean_ratio:.3f} ± {rule.std_ratio:.3f}",
+        "double_ratio": _spread(double),
+        "thk_mean": f"{thk.mean_ratio:.2f}",
+        "double_jis": f"{double.mean_laws['jis']:.2f}",
+        "thk_by_rexroth": f"{thk.mean_laws['rexroth']:.2f}",
+        "rings": _spread(by_key["balan-2015", False]),
+        "screws": str(len(screws.points)),
+        "screws_within": str(sum(bool(point.in_band) for point in screws.points)),
+        **{f"screws_{key}": "{:.2f} to {:.2f}".format(*one.range_ratio) for key, one in ranges.items()},
+        **{f"stock_{kind}_ratio": f"{stock[kind].mean_ratio:.2f}" for kind in ("double", "offset")},
+        **{f"stock_{kind}_hiwin": f"{stock[kind].mean_laws['hiwin']:.2f}" for kind in ("double", "offset")},
+    }
 
 
 def _numbers_of_stock(raw, calibrated_entry) -> dict[str, str]:
@@ -489,4 +451,4 @@ def _percent(share: float) -> str:
 
 
 def _table(lines) -> str:
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+    return markdown_table(lines[0], lines[1:])

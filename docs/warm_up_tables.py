@@ -27,6 +27,7 @@ from ballscrew.axis.thermal.friction_map import FrictionMap
 from ballscrew.axis.thermal.network import Network, network_of
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.axis.thermal.warm_up_band import WarmUpBand
+from ballscrew.questions.shared.text_tables import markdown_table
 
 SPEEDS, PRELOAD, STROKE = (500, 1500, 3000), 3500.0, 0.5
 #: From the nut to its surroundings, W/K: bolted to a table, and on a cooled plate.
@@ -81,10 +82,8 @@ def bands(rpm: float, variant: str, samples: int = SAMPLES) -> WarmUpBand:
 
 def table_of_effects() -> str:
     """The coupled table: nut, growth, preload and torque by what is taken in."""
-    lines = ["| speed | " + " | ".join(VARIANTS) + " |", "|---|" + "---:|" * len(VARIANTS)]
-    for rpm in SPEEDS:
-        lines.append(f"| {rpm} rpm | " + " | ".join(_cell(results(network(rpm, v), rpm)) for v in VARIANTS) + " |")
-    return "\n".join(lines) + "\n"
+    rows = [[f"{rpm} rpm", *(_cell(results(network(rpm, v), rpm)) for v in VARIANTS)] for rpm in SPEEDS]
+    return markdown_table(("speed", *VARIANTS), rows, numbers=True)
 
 
 def _cell(one: dict[str, float]) -> str:
@@ -95,10 +94,7 @@ def _cell(one: dict[str, float]) -> str:
 
 def table_of_bands() -> str:
     """Bands of the coupled numbers, and the share of samples without a steady state."""
-    lines = [
-        "| speed | nut | nut | growth | preload | torque | none |",
-        "|---|---|---:|---:|---:|---:|---:|",
-    ]
+    lines: list[list[str]] = []
     for rpm in SPEEDS:
         for variant in VARIANTS[2:]:
             found = bands(rpm, variant)
@@ -113,16 +109,13 @@ def table_of_bands() -> str:
                 for low, high in [found.steady[name]]
             ]
             kind = "bolted" if variant == VARIANTS[2] else "cooled"
-            lines.append(f"| {rpm} rpm | {kind} | " + " | ".join(cells) + f" | {1 - found.steady_share:.0%} |")
-    return "\n".join(lines) + "\n"
+            lines.append([f"{rpm} rpm", kind, *cells, f"{1 - found.steady_share:.0%}"])
+    return markdown_table(("speed", "nut", "nut", "growth", "preload", "torque", "none"), lines, numbers=True)
 
 
 def table_of_cooling() -> str:
     """What the cooling of the nut alone does, for a weak and a strong contact with the shaft."""
-    lines = [
-        "| speed | from the nut | preload, middle | preload, balls × 3 | preload, balls / 3 |",
-        "|---|---|---:|---:|---:|",
-    ]
+    lines: list[list[str]] = []
     for rpm in SPEEDS:
         middle = network(rpm).ball_conductance
         for cooling in (2.0, BOLTED, 40.0, COOLED):
@@ -130,8 +123,9 @@ def table_of_cooling() -> str:
             for factor in (1.0, 3.0, 1 / 3):
                 one = results(network(rpm, nut_conductance=cooling, ball_conductance=factor * middle), rpm)
                 cells.append("none" if math.isnan(one["nut"]) else f"{one['preload']:.0f} N")
-            lines.append(f"| {rpm} rpm | {cooling:g} W/K | " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
+            lines.append([f"{rpm} rpm", f"{cooling:g} W/K", *cells])
+    heads = (f"preload, {which}" for which in ("middle", "balls × 3", "balls / 3"))
+    return markdown_table(("speed", "from the nut", *heads), lines, numbers=True)
 
 
 def tables() -> dict[str, str]:

@@ -7,4 +7,4 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "tests"))  # random screws, logs, stores and requests are shared with the tests
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "benchmarks")]  # random parts, logs and requests are shared with them

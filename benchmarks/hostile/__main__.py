@@ -8,6 +8,9 @@ from __future__ import annotations
 import argparse
 import datetime
 import faulthandler
+import functools
+import importlib
+import inspect
 import os
 import re
 import sys
@@ -18,29 +21,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
-from benchmarks.hostile import (
-    ROOT,
-    cases,
-    exports,
-    large_files,
-    logs,
-    nuts,
-    places,
-    requests,
-    screws,
-    stores,
-    traces,
-    users,
-    workers,
-)
+from benchmarks.hostile import ROOT, workers
 from benchmarks.hostile.tally import Tally
 
 from ballscrew.basis.version import __version__
 
-SECTIONS: dict[str, ModuleType] = {
-    module.__name__.rpartition(".")[2]: module
-    for module in (screws, nuts, exports, cases, logs, traces, large_files, stores, places, requests, users)
-}
+NAMES = (
+    "screws", "nuts", "exports", "cases", "logs", "traces", "large_files", "stores", "places", "requests", "users",
+)  # fmt: skip
+SECTIONS: dict[str, ModuleType] = {name: importlib.import_module(f"benchmarks.hostile.{name}") for name in NAMES}
 PAGE = ROOT / "docs" / "reliability.md"
 BEGIN, END = "<!-- hostile run: begin -->", "<!-- hostile run: end -->"
 #: Lines on what is wrong, and how many different ones of a section are printed.
@@ -52,7 +41,8 @@ def section(name: str, scale: float, seed: int) -> tuple[Tally, float]:
     """One section: its counts, and the seconds that it took."""
     module = SECTIONS[name]
     tally = Tally(name, max(2, round(module.COUNT * scale)), module.SECONDS)
-    module.run(tally, seed)
+    run = getattr(module, "run", None) or functools.partial(workers.run, module.attempt, size=sizes(module))
+    run(tally, seed)
     seconds = tally.seconds
     tally.say()
     WRONG.mkdir(parents=True, exist_ok=True)
@@ -62,23 +52,23 @@ def section(name: str, scale: float, seed: int) -> tuple[Tally, float]:
     return tally, seconds
 
 
+def sizes(module: ModuleType) -> int:
+    """Inputs of an attempt."""
+    return getattr(module, "SIZE", 1)
+
+
 def repeat(module: ModuleType, seed: int, number: int) -> None:
     """One attempt of a section, in this process: a defect in it can be looked at."""
     with tempfile.TemporaryDirectory() as place:
         workers.prepare(place)
         faulthandler.dump_traceback_later(workers.MOST_SECONDS, exit=True)
-        print(module.attempt(seed, number, getattr(module, "SIZE", 1)))
+        print(module.attempt(seed, number, sizes(module)))
 
 
 def table(found: Sequence[tuple[Tally, float]], heading: str) -> str:
     """The part of the page that a run writes."""
-    lines = [
-        heading,
-        "",
-        "| section | tried | seconds | answered | refused or flagged | wrong |",
-        "|---|---|---|---|---|---|",
-    ]
-    lines += [row(tally, seconds) for tally, seconds in found]
+    head = "| section | tried | seconds | answered | refused or flagged | wrong |\n|---|---|---|---|---|---|"
+    lines = [heading, "", head, *(row(tally, seconds) for tally, seconds in found)]
     for tally, _ in found:
         lines += ["", *description(tally)]
     return "\n".join(lines) + "\n"
@@ -94,8 +84,8 @@ def row(tally: Tally, seconds: float) -> str:
 
 def description(tally: Tally) -> list[str]:
     """What a section tries, what is wrong, and its notes."""
-    module = SECTIONS[tally.name]
-    first = f"**{tally.name}**: {module.TRIED}. *Wrong*: {module.WRONG}."
+    _, *words = inspect.getdoc(SECTIONS[tally.name]).split("\n\n")
+    first = f"**{tally.name}**: {' '.join(' '.join(words).split())}"
     return [first, "", *tally.notes] if tally.notes else [first]
 
 
@@ -115,12 +105,6 @@ def with_section(text: str, tally: Tally, seconds: float, scale: float) -> str:
         flags=re.MULTILINE | re.DOTALL,
     )
     return f"{before}{BEGIN}\n{heading}\n{table.rstrip()}\n{END}{after}"
-
-
-def with_table(text: str, block: str) -> str:
-    """The page with another table."""
-    before, rest = text.split(BEGIN)
-    return f"{before}{BEGIN}\n{block}{END}{rest.split(END)[1]}"
 
 
 def main() -> None:
@@ -149,7 +133,7 @@ def main() -> None:
     print(block)
     page = options.page.read_text(encoding="utf-8")
     if not options.sections:
-        page = with_table(page, block)
+        page = f"{page.split(BEGIN)[0]}{BEGIN}\n{block}{END}{page.split(END)[1]}"
     for tally, seconds in found if options.sections else ():
         page = with_section(page, tally, seconds, options.scale)
     options.page.write_text(page, encoding="utf-8")

@@ -1,4 +1,12 @@
-"""Mutated case files, read and run in process, and some of them by the command."""
+"""Mutated case files, read and run in process, and some of them by the command.
+
+The example case files and one with all tables, with numbers, units, names, types, lines, sections, letters and bytes
+changed; read, run and written as JSON and text in process, one in 60 also by `ballscrew run`.
+
+*Wrong*: an exception other than `InputError`; a warning of NumPy; a number that is not finite without a warning; a
+refusal after more than 10 s (1 s is asked for; other work on the machine is allowed for); of the command a traceback,
+an exit code other than 0 and 2, output with exit code 2, or another answer than in process.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +20,8 @@ import numpy as np
 from benchmarks.hostile import ROOT, workers
 from benchmarks.hostile.mutations import chosen, mutated_text
 from benchmarks.hostile.screws import TORQUES
-from benchmarks.hostile.tally import Outcome, Tally
+from benchmarks.hostile.tally import Outcome
 
-from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
@@ -22,20 +29,10 @@ from ballscrew.questions.run import answer, compute
 from ballscrew.questions.run.sheet import sheet
 
 COUNT, SECONDS = 3_000, 130.0
-TRIED = (
-    "the example case files and one with all tables, with numbers, units, names, types, lines, sections, letters and "
-    "bytes changed; read, run and written as JSON and text in process, one in 60 also by `ballscrew run`"
-)
-WRONG = (
-    "an exception other than `InputError`; a warning of NumPy; a number that is not finite without a warning; a "
-    "refusal "
-    "after more than 10 s (1 s is asked for; other work on the machine is allowed for); of the command a traceback, an "
-    "exit code other than 0 and 2, output with exit code 2, or another answer than in process"
-)
 
 #: One in so many is also tried by the command.
 BY_COMMAND = 60
-SLOW, TOO_SLOW = 1.0, 10.0
+TOO_SLOW = 10.0
 COMMAND_SECONDS = 25.0
 
 #: A case with all tables.
@@ -84,34 +81,21 @@ def texts() -> list[str]:
     return [WHOLE, *(path.read_text(encoding="utf-8") for path in sorted((ROOT / "examples").glob("*.toml")))]
 
 
-def run(tally: Tally, seed: int) -> None:
-    """Try mutated case files."""
-    workers.run(attempt, tally, seed)
-
-
 def attempt(seed: int, number: int, _: int) -> Outcome:
     """One file."""
     rng = np.random.default_rng([seed, number])
     done, content = mutated_text(chosen(rng, texts()), rng)
     path = workers.folder() / f"{number}.toml"
     path.write_bytes(content)
-    words = f"attempt {number} ({done})"
     begun = time.monotonic()
-    try:
-        is_answer = True
-        wrong = not_finite(path)
-    except InputError:
-        is_answer, wrong = False, ""
-        if time.monotonic() - begun > TOO_SLOW:
-            wrong = f"refused after {time.monotonic() - begun:.1f} s"
-    except Exception as error:
-        return Outcome(wrong=[f"{words}: {workers.last_line(error)}"])
-    if not wrong and number % BY_COMMAND == 0:
-        wrong = wrong_command(path, is_answer=is_answer)
+    found = workers.judged(f"attempt {number} ({done})", lambda: not_finite(path))
+    wrong = ""
+    if found.refused and time.monotonic() - begun > TOO_SLOW:
+        wrong = f"refused after {time.monotonic() - begun:.1f} s"
+    elif not found.wrong and number % BY_COMMAND == 0:
+        wrong = wrong_command(path, is_answer=bool(found.answered))
     path.unlink()
-    if wrong:
-        return Outcome(wrong=[f"{words}: {wrong}"])
-    return Outcome(answered=int(is_answer), refused=int(not is_answer))
+    return Outcome(wrong=[f"attempt {number} ({done}): {wrong}"]) if wrong else found
 
 
 def not_finite(path: Any) -> str:
@@ -134,10 +118,10 @@ def wrong_command(path: Any, *, is_answer: bool) -> str:
         )
     except subprocess.TimeoutExpired:
         return f"the command took more than {COMMAND_SECONDS:g} s"
-    if done.returncode not in (0, 2) or "Traceback" in done.stderr:
-        return f"the command ended with {done.returncode}: {done.stderr.strip().splitlines()[-1:]}"
-    if done.returncode == 2 and (done.stdout or not done.stderr.strip()):
-        return "the command refused it and wrote to its output, or said nothing"
+    if faults := workers.faults_of_command(done.returncode, done.stderr):
+        return f"the command {faults[0]}"
+    if done.returncode == 2 and done.stdout:
+        return "the command refused it and wrote to its output"
     if (done.returncode == 0) != is_answer:
         return f"the command ended with {done.returncode}, and in process it was {'' if is_answer else 'not '}answered"
     return ""

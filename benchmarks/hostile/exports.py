@@ -1,4 +1,11 @@
-"""Exported programs at inputs of every size, numbers next to zero among them, against the model in Python."""
+"""Exported programs at inputs of every size, numbers next to zero among them, against the model in Python.
+
+Loads, speeds, preloads and temperatures of both signs and of every power of ten from the smallest number above zero to
+the largest, for the three models with a nut of each kind, in the interpreter in C that programs and FMUs carry.
+
+*Wrong*: another number than the model in Python to 1e-12 of the largest part of its kind, a NaN on one side only,
+another validity; a process that dies.
+"""
 
 from __future__ import annotations
 
@@ -18,15 +25,6 @@ from ballscrew.exports.programs.program_file import program_file
 from ballscrew.exports.subject import HandOver
 
 COUNT, SECONDS = 40_000, 120.0
-TRIED = (
-    "loads, speeds, preloads and temperatures of both signs and of every power of ten from the smallest number above "
-    "zero to the largest, for the three models with a nut of each kind, in the interpreter in C that programs and FMUs "
-    "carry"
-)
-WRONG = (
-    "another number than the model in Python to 1e-12 of the largest part of its kind, a NaN on one side only, another "
-    "validity; a process that dies"
-)
 
 SIZE = 400
 #: Relative: of the same operations in another order.

@@ -1,4 +1,12 @@
-"""Files that are much larger than they look, or than they need be, read by the commands under a limit of memory."""
+"""Files that are much larger than they look, or than they need be, read by the commands under a limit of memory.
+
+Logs, traces and catalogues of which a few kilobytes unpack to gigabytes (XLSX with shared texts, with cells and with
+one far cell; MATLAB 5 with a packed and with a pretended size; MATLAB 7.3 with a packed array), CSV of 100,000 columns,
+of one line of 100 MB, of one cell of 100 MB and of 10,000,000 rows; by `fit`, `duty --trace` and `catalogue list
+--rows`.
+
+*Wrong*: more than 3 GB of memory; more than 150 s of processor; a traceback; an exit code other than 0 and 2.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +28,6 @@ from benchmarks.hostile.tally import Outcome, Tally
 SECONDS = 600.0
 #: Bytes of memory that a command may take, and seconds of processor.
 MOST_MEMORY, MOST_SECONDS = 3 << 30, 150.0
-TRIED = (
-    "logs, traces and catalogues of which a few kilobytes unpack to gigabytes (XLSX with shared texts, with cells and "
-    "with one far cell; MATLAB 5 with a packed and with a pretended size; MATLAB 7.3 with a packed array), CSV of "
-    "100,000 columns, of one line of 100 MB, of one cell of 100 MB and of 10,000,000 rows; by `fit`, "
-    "`duty --trace` and `catalogue list --rows`"
-)
-WRONG = "more than 3 GB of memory; more than 150 s of processor; a traceback; an exit code other than 0 and 2"
 
 _HEADING = b"speed [rpm],axial load [N],torque [N m]\n"
 
@@ -203,11 +204,7 @@ def attempt(_: int, number: int, __: int) -> Outcome:
     text = said.read_text(encoding="utf-8", errors="replace")
     path.unlink()
     seconds, memory = used.ru_utime + used.ru_stime, used.ru_maxrss * 1024
-    wrong: list[str] = []
-    if code not in (0, 2) or "Traceback" in text:
-        wrong.append(f"ended with {code}: {(text.strip().splitlines() or [''])[-1][:200]}")
-    if code == 2 and not text.strip():
-        wrong.append("refused without a word")
+    wrong = workers.faults_of_command(code, text)
     if memory > MOST_MEMORY:
         wrong.append(f"{memory / 1e9:.1f} GB")
     if seconds > MOST_SECONDS:

@@ -1,4 +1,12 @@
-"""Mutated logs of torques, read and fitted."""
+"""Mutated logs of torques, read and fitted.
+
+Logs of 40 to 120 rows as CSV, XLSX, MATLAB 5 and MATLAB 7.3 with other separators, decimal commas, headings, units,
+encodings, gaps, texts, outliers, repeated rows, clocks that start again, and damaged bytes (in XLSX also of what is
+packed); read and fitted, one in two with `--keep-going`.
+
+*Wrong*: an exception other than `InputError`; a warning of NumPy; an estimate that is not finite; a process that dies
+or is silent for 30 s.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +22,8 @@ from typing import Any
 import numpy as np
 from benchmarks.hostile import workers
 from benchmarks.hostile.mutations import OF_BYTES, OF_TEXT_BYTES, Random, chosen
-from benchmarks.hostile.tally import Outcome, Tally
+from benchmarks.hostile.tally import Outcome
 
-from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.fit import compute
 from ballscrew.questions.fit.log import steady_log
@@ -24,26 +31,9 @@ from ballscrew.questions.fit.options import FitOptions
 from support.fit_logs import FRICTION, HEADINGS, OFFSET, PAPER, columns
 
 COUNT, SECONDS = 300, 120.0
-TRIED = (
-    "logs of 40 to 120 rows as CSV, XLSX, MATLAB 5 and MATLAB 7.3 with other separators, decimal commas, headings, "
-    "units, "
-    "encodings, gaps, texts, outliers, repeated rows, clocks that start again, and damaged bytes (in XLSX also of "
-    "what is "
-    "packed); read and fitted, one in two with `--keep-going`"
-)
-WRONG = (
-    "an exception other than `InputError`; a warning of NumPy; an estimate that is not finite; a process that dies "
-    "or is "
-    "silent for 30 s"
-)
 
 Columns = dict[str, Any]
 Cells = list[list[str]]
-
-
-def run(tally: Tally, seed: int) -> None:
-    """Try mutated logs."""
-    workers.run(attempt, tally, seed)
 
 
 # -- columns --------------------------------------------------------------------------------------
@@ -222,40 +212,33 @@ def _mat73(cells: Cells, _: Random) -> bytes:
 FILES: dict[str, Callable[[Cells, Random], bytes]] = {"csv": _csv, "xlsx": _xlsx, "mat": _mat5, "7.3.mat": _mat73}
 
 
-def log(rng: Random) -> tuple[str, str, bytes]:
-    """The suffix, the mutations and the content of a mutated log."""
-    rows = int(rng.integers(40, 121))
-    data: Columns = {"time": np.arange(float(rows)), **columns(rows, seed=int(rng.integers(1 << 31)))}
-    suffix = chosen(rng, ["csv", "csv", "csv", *FILES])
-    done = [chosen(rng, list(OF_COLUMNS)), chosen(rng, list(OF_CELLS))]
-    data = OF_COLUMNS[done[0]](data, rng)
-    cells: Cells = [[HEADINGS[name] for name in data]]
+def written(data: Columns, headings: dict[str, str], rng: Random, wild: float) -> tuple[str, str, bytes]:
+    """A suffix, and the mutations and the content of a file of these columns; a share of its bytes is ``wild``."""
+    suffix, done = chosen(rng, ["csv", "csv", "csv", *FILES]), chosen(rng, list(OF_CELLS))
+    cells: Cells = [[headings[name] for name in data]]
     cells += [[f"{value:.9g}" for value in row] for row in zip(*data.values(), strict=True)]
-    content = FILES[suffix](OF_CELLS[done[1]](cells, rng), rng)
-    if rng.random() < 0.4:
-        damages = OF_TEXT_BYTES if suffix == "csv" else OF_BYTES
-        done.append(chosen(rng, list(damages)))
-        content = damages[done[-1]](content, rng)
-    return suffix, ", ".join(done), content
+    content = FILES[suffix](OF_CELLS[done](cells, rng), rng) if data else b""
+    if rng.random() >= wild:
+        return suffix, done, content
+    damages = OF_TEXT_BYTES if suffix == "csv" else OF_BYTES
+    damage = chosen(rng, list(damages))
+    return suffix, f"{done}, {damage}", damages[damage](content, rng)
 
 
 def attempt(seed: int, number: int, _: int) -> Outcome:
     """One log."""
     rng = np.random.default_rng([seed, number])
-    suffix, done, content = log(rng)
+    rows, done = int(rng.integers(40, 121)), chosen(rng, list(OF_COLUMNS))
+    data: Columns = {"time": np.arange(float(rows)), **columns(rows, seed=int(rng.integers(1 << 31)))}
+    suffix, others, content = written(OF_COLUMNS[done](data, rng), HEADINGS, rng, 0.4)
     path = workers.folder() / f"log.{suffix}"
     path.write_bytes(content)
-    words = f"attempt {number} (.{suffix}: {done})"
-    free = chosen(rng, ([FRICTION], [FRICTION, OFFSET]))
-    try:
+    options = FitOptions(free=chosen(rng, ([FRICTION], [FRICTION, OFFSET])), keep_going=bool(number % 2))
+
+    def work() -> str:
         case = case_file.build(tomllib.loads(PAPER), None, Path())
-        options = FitOptions(free=free, keep_going=bool(number % 2))
-        found = compute.fit(case, steady_log(case, path, options), options)
-    except InputError:
-        return Outcome(refused=1)
-    except Exception as error:
-        return Outcome(wrong=[f"{words}: {workers.last_line(error)}"])
-    estimates = {name: estimate.value for name, estimate in found.model.estimates.items()}
-    if not all(math.isfinite(value) for value in estimates.values()):
-        return Outcome(wrong=[f"{words}: estimates {estimates}"])
-    return Outcome(answered=1)
+        found = compute.fit(case, steady_log(case, path, options), options).model
+        estimates = {name: estimate.value for name, estimate in found.estimates.items()}
+        return "" if all(map(math.isfinite, estimates.values())) else f"estimates {estimates}"
+
+    return workers.judged(f"attempt {number} (.{suffix}: {done}, {others})", work)

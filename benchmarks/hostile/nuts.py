@@ -1,4 +1,12 @@
-"""Random nuts of all kinds, with bodies, deviations and losses, from no load through lift-off."""
+"""Random nuts of all kinds, with bodies, deviations and losses, from no load through lift-off.
+
+Nuts of the four kinds with 5 to 100 balls a half, elastic bodies, deviations and losses, at loads from nothing through
+lift-off and speeds from rest to 5000 rpm; in a fifth of them numbers are replaced by those that no nut has. All models.
+
+*Wrong*: an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, a
+negative friction, a ball that is pulled, or loads that did not converge; a model without four contacts that takes
+oversize balls.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +15,9 @@ from typing import Any
 
 import numpy as np
 from benchmarks.hostile import workers
+from benchmarks.hostile.draws import KINDS, Draw, draw
 from benchmarks.hostile.screws import STRANGE, TORQUES, faults_of_efficiency, faults_of_parts
-from benchmarks.hostile.tally import Outcome, Tally
-from benchmarks.loads import KINDS, Draw, draw
+from benchmarks.hostile.tally import Outcome
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
@@ -19,25 +27,8 @@ from ballscrew.physics.laws.traits import traits_of
 from support.strategies import MODELS, RPM
 
 COUNT, SECONDS = 2_000, 60.0
-TRIED = (
-    "nuts of the four kinds with 5 to 100 balls a half, elastic bodies, deviations and losses, at loads from nothing "
-    "through lift-off and speeds from rest to 5000 rpm; in a fifth of them numbers are replaced by those that no nut "
-    "has. All models"
-)
-WRONG = (
-    "an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, a "
-    "negative "
-    "friction, a ball that is pulled, or loads that did not converge; a model without four contacts that takes "
-    "oversize "
-    "balls"
-)
 
 SIZE = 5
-
-
-def run(tally: Tally, seed: int) -> None:
-    """Try random nuts."""
-    workers.run(attempt, tally, seed, SIZE)
 
 
 def attempt(seed: int, number: int, size: int) -> Outcome:

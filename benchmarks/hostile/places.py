@@ -1,4 +1,13 @@
-"""Commands that write, into places that are full, closed, taken or somebody else's."""
+"""Commands that write, into places that are full, closed, taken or somebody else's.
+
+Each command that writes, into a full disk (a file system of 16 kB), a file system that is read only, a folder whose
+name is a file's, a file that is a folder, a link to nothing, a link to another file, and with a standard output that is
+full or closed; an older file stands in the place.
+
+*Wrong*: a traceback; an exit code other than 0 and 2, or 1 where a sweep stopped; a message of several lines or none; a
+file that is half written, an older one that has changed, or one left beside it; a file elsewhere that a link pointed at
+and that has changed.
+"""
 
 from __future__ import annotations
 
@@ -14,16 +23,6 @@ from benchmarks.hostile import ROOT, workers
 from benchmarks.hostile.tally import Outcome, Tally
 
 SECONDS = 400.0
-TRIED = (
-    "each command that writes, into a full disk (a file system of 16 kB), a file system that is read only, a folder "
-    "whose name is a file's, a file that is a folder, a link to nothing, a link to another file, and with a standard "
-    "output that is full or closed; an older file stands in the place"
-)
-WRONG = (
-    "a traceback; an exit code other than 0 and 2, or 1 where a sweep stopped; a message of several lines or none; a "
-    "file that is half written, an older one that has changed, or one left beside it; a file elsewhere that a link "
-    "pointed at and that has changed"
-)
 
 #: Seconds of one command, beside other work.
 MOST_SECONDS = 120.0
@@ -172,13 +171,8 @@ def _wrong(
     can_write: bool,
 ) -> list[str]:
     """Words on what a command has done wrong; where it ``can_write``, the file may be there before it is refused."""
-    found: list[str] = []
-    if "Traceback" in done.stderr:
-        found.append(f"traceback: {done.stderr.strip().splitlines()[-1]}")
-    elif done.returncode not in (0, 2) and not (done.returncode == 1 and "stopped" in done.stderr):
-        found.append(f"exit code {done.returncode}: {done.stderr.strip().splitlines()[-1:]}")
-    elif done.returncode and not done.stderr.strip():
-        found.append("refused without a word")
+    stopped = done.returncode == 1 and "stopped" in done.stderr and "Traceback" not in done.stderr
+    found = [] if stopped else workers.faults_of_command(done.returncode, done.stderr)
     own = {name for name in {*before, *after} if name == file or name.startswith(f"{file}/")}
     elsewhere = {name for name in {*before, *after} - own if before.get(name) != after.get(name)}
     if elsewhere:

@@ -1,4 +1,12 @@
-"""Mutated requests to a server: bodies, headers, paths, methods, bytes that are no request, and slow clients."""
+"""Mutated requests to a server: bodies, headers, paths, methods, bytes that are no request, and slow clients.
+
+Requests to `ballscrew serve` from 8 clients: bodies with mutated cases, options and bytes, those of the tests, other
+paths, methods, headers and queries, bytes that are no request, clients that leave, and 20 that send half a request and
+wait; one in 20 is a usual request.
+
+*Wrong*: a status of 500 or more; no answer, or none within 60 s; an answer without the security headers; a usual
+request that is not answered with 200; a server that is dead or has written to standard error.
+"""
 
 from __future__ import annotations
 
@@ -24,18 +32,6 @@ from benchmarks.serve import CASE, NUT, requests
 from faces.web.test_hostile import BODIES, HEAD, LOGS, SWEEPS, VALUES
 
 COUNT, SECONDS = 10_000, 200.0
-TRIED = (
-    "requests to `ballscrew serve` from 8 clients: bodies with mutated cases, options and bytes, those of the tests, "
-    "other "
-    "paths, methods, headers and queries, bytes that are no request, clients that leave, and 20 that send half a "
-    "request "
-    "and wait; one in 20 is a usual request"
-)
-WRONG = (
-    "a status of 500 or more; no answer, or none within 60 s; an answer without the security headers; a usual "
-    "request that "
-    "is not answered with 200; a server that is dead or has written to standard error"
-)
 
 CLIENTS, SLOW = 8, 20
 USUAL = 20

@@ -1,37 +1,33 @@
-"""Random screws, half of them with numbers that no screw has, through all models: as arrays and one by one."""
+"""Random screws, half of them with numbers that no screw has, through all models: as arrays and one by one.
+
+Screws, oils and operating points drawn from all that is sold and a little more; in every second thousand numbers are
+replaced by zero, negative, tiny, huge, infinite or NaN. The three models on arrays; one in 50 also by the constructors,
+one by one.
+
+*Wrong*: an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, an
+efficiency that is not finite where the screw drives the load, or a number elsewhere, a negative part (of the torque as
+printed, else of the dissipated power), or power in that is not power lost to 1e-9 (corrected, reference); a point valid
+in an array that the constructor refuses, or whose torque differs from that alone by more than 1e-9.
+"""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from benchmarks.hostile import workers
-from benchmarks.hostile.tally import Outcome, Tally
+from benchmarks.hostile.tally import Outcome
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import fields_of
-from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import settled
-from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.result import FrictionResult
 from support.strategies import MODELS, Case, box
 
 COUNT, SECONDS = 100_000, 90.0
-TRIED = (
-    "screws, oils and operating points drawn from all that is sold and a little more; in every second thousand numbers "
-    "are replaced by zero, negative, tiny, huge, infinite or NaN. The three models on arrays; one in 50 also by the "
-    "constructors, one by one"
-)
-WRONG = (
-    "an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, an "
-    "efficiency that is not finite where the screw drives the load, or a number elsewhere, a negative "
-    "part (of the torque as printed, else of the dissipated power), or power in that is not power lost to 1e-9 "
-    "(corrected, reference); a point valid in an array that the "
-    "constructor refuses, or whose torque differs from that alone by more than 1e-9"
-)
 
 SIZE, ALONE = 1000, 50
 #: Relative: of a sum, and of numbers added in another order.
@@ -41,11 +37,6 @@ STRANGE = np.array([0.0, -0.0, -1.0, 0.5, 1.0, 1e-300, 1e-30, 1e-12, 1e6, 1e30, 
 TORQUES = ("screw_torque", "nut_torque", "ideal_torque", "drive_torque", "friction_power")
 
 Mask = NDArray[np.bool_]
-
-
-def run(tally: Tally, seed: int) -> None:
-    """Try random screws."""
-    workers.run(attempt, tally, seed, SIZE)
 
 
 def attempt(seed: int, number: int, size: int) -> Outcome:
@@ -74,26 +65,22 @@ def strange(case: Case, rng: np.random.Generator) -> Case:
         new = np.where(rng.random(size) < 0.5, rng.choice(STRANGE, size), values * 10 ** rng.uniform(-12, 12, size))
         return np.where(rng.random(size) < 0.06, new, values)
 
+    return changed(case, replaced)
+
+
+def changed(case: Case, change: Callable[[Any], Any]) -> Case:
+    """The case with all its arrays changed."""
+
     def part(given: Any) -> Any:
         arrays = {n: getattr(given, n) for n in fields_of(given) if isinstance(getattr(given, n), np.ndarray)}
-        return dataclasses.replace(given, **{name: replaced(values) for name, values in arrays.items()})
+        return dataclasses.replace(given, **{name: change(values) for name, values in arrays.items()})
 
-    return Case(part(case.screw), part(case.oil), replaced(case.axial_load), replaced(case.screw_speed))
+    return Case(part(case.screw), part(case.oil), change(case.axial_load), change(case.screw_speed))
 
 
 def some(case: Case, which: Any) -> Case:
     """Points of a case: an index array makes arrays, a number a case of numbers that constructors have checked."""
-
-    def part(given: Any) -> Any:
-        arrays = {n: getattr(given, n) for n in fields_of(given) if isinstance(getattr(given, n), np.ndarray)}
-        return dataclasses.replace(given, **{name: taken(values) for name, values in arrays.items()})
-
-    def taken(values: Any) -> Any:
-        return values[which] if np.ndim(which) else float(values[which])
-
-    screw: BallScrew = part(case.screw)
-    oil: Lubricant = part(case.oil)
-    return Case(screw, oil, taken(case.axial_load), taken(case.screw_speed))
+    return changed(case, lambda values: values[which] if np.ndim(which) else float(values[which]))
 
 
 def checked(name: str, case: Case, which: NDArray[np.int_]) -> tuple[Mask, dict[int, str]]:

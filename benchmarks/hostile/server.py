@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import signal
 import subprocess
 import tempfile
 from collections.abc import Iterator, Mapping
@@ -21,18 +20,11 @@ MOST_SECONDS = 60.0
 def started(tally: Tally) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """A server and its address; that it dies, does not end or writes to standard error is wrong."""
     with tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
-        process, address = serve.started("-W", "error::RuntimeWarning", errors=errors)
-        try:
+        with serve.server("-W", "error::RuntimeWarning", errors=errors) as (process, address):
             yield process, address
             if process.poll() is not None:
                 tally.add(Outcome(wrong=[f"the server is dead: {process.returncode}"]))
-        finally:
-            process.send_signal(signal.SIGINT)
-            try:
-                code = process.wait(MOST_SECONDS)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                code = process.wait()
+        code = process.returncode
         errors.seek(0)
         if code or (said := errors.read().strip()):
             lines = "" if code else said.splitlines()[-1]

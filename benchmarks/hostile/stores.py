@@ -1,4 +1,13 @@
-"""Damaged stores of sweeps: checked, resumed, and compared with an undamaged one."""
+"""Damaged stores of sweeps: checked, resumed, and compared with an undamaged one.
+
+Kinds of damage, each on a finished store and on one with 12 of 21 blocks: every kind of file removed, cut, emptied,
+extended, flipped, zeroed, exchanged, replaced by a folder, a link and a link to nothing; locks, other plans, formats,
+models and folders; files of a sibling store in their places, by kind and at random, as a partial copy leaves them. Then
+`bs.verify`, and the same sweep again (of a finished store with and without `verify=True`).
+
+*Wrong*: a store with changed files that `bs.verify` calls good; numbers after the sweep, or read from it, that are not
+those of the undamaged store; an exception other than `InputError` or a stopped sweep in a line.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +25,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from benchmarks.hostile import workers
-from benchmarks.hostile.tally import Outcome, Tally
+from benchmarks.hostile.tally import Outcome
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
@@ -26,94 +35,51 @@ from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from support.stores import MODEL, SMALL, files
 
 SECONDS = 300.0
-TRIED = (
-    "kinds of damage, each on a finished store and on one with 12 of 21 blocks: every kind of file removed, cut, "
-    "emptied, "
-    "extended, flipped, zeroed, exchanged, replaced by a folder, a link and a link to nothing; locks, other plans, "
-    "formats, "
-    "models and folders; files of a sibling store in their places, by kind and at random, as a partial copy leaves "
-    "them. Then `bs.verify`, and the same sweep again (of a finished store with and without `verify=True`)"
-)
-WRONG = (
-    "a store with changed files that `bs.verify` calls good; numbers after the sweep, or read from it, that are not "
-    "those of the undamaged store; an exception other than `InputError` or a stopped sweep in a line"
-)
 
 OWN = ".ballscrew"
 #: Points of 12 of the 21 blocks.
 UNFINISHED = 12 * 9
 
-#: ``(store, path of the file in it)``
-Damage = Callable[[Path, str], None]
-
-
 # -- damage of one file ---------------------------------------------------------------------------
 
 
-def removed(store: Path, name: str) -> None:
-    """Remove it."""
-    (store / name).unlink()
-
-
-def cut(store: Path, name: str) -> None:
-    """Leave the first half."""
-    os.truncate(store / name, (store / name).stat().st_size // 2)
-
-
-def emptied(store: Path, name: str) -> None:
-    """Leave nothing."""
-    os.truncate(store / name, 0)
-
-
-def extended(store: Path, name: str) -> None:
-    """Add bytes."""
-    with (store / name).open("ab") as file:
-        file.write(b"\0more")
-
-
-def flipped(store: Path, name: str) -> None:
-    """Flip one bit."""
-    content = bytearray((store / name).read_bytes())
+def _flipped(path: Path) -> None:
+    content = bytearray(path.read_bytes())
     content[len(content) // 2] ^= 0x10
-    (store / name).write_bytes(content)
+    path.write_bytes(content)
 
 
-def zeroed(store: Path, name: str) -> None:
-    """Write zeros, as a file system may after a loss of power."""
-    (store / name).write_bytes(bytes((store / name).stat().st_size))
+def _exchanged(path: Path) -> None:
+    """With another file of the store, of the same folder if there is one, of the nearest size."""
+    others = sorted(other for other in path.parent.parent.rglob("*") if other.is_file() and other != path)
+    other = min(others, key=lambda other: abs(other.stat().st_size - path.stat().st_size))
+    content = path.read_bytes()
+    path.write_bytes(other.read_bytes())
+    other.write_bytes(content)
 
 
-def exchanged(store: Path, name: str) -> None:
-    """Exchange it with another file of the store, of the same folder if there is one."""
-    own = store / name
-    others = sorted(path for path in own.parent.parent.rglob("*") if path.is_file() and path != own)
-    others.sort(key=lambda path: abs(path.stat().st_size - own.stat().st_size))
-    content = own.read_bytes()
-    own.write_bytes(others[0].read_bytes())
-    others[0].write_bytes(content)
+def _moved_and_linked(path: Path, keep: bool = True) -> None:
+    """Elsewhere with a link in its place; the file is gone unless it is to be kept."""
+    there = workers.folder() / f"elsewhere-{path.parent.name}"
+    path.rename(there)
+    path.symlink_to(there)
+    if not keep:
+        there.unlink()
 
 
-def a_folder(store: Path, name: str) -> None:
-    """Put a folder in its place."""
-    (store / name).unlink()
-    (store / name).mkdir()
-
-
-def a_link(store: Path, name: str) -> None:
-    """Move it elsewhere and put a link in its place."""
-    (store / name).rename(store.parent / "elsewhere")
-    (store / name).symlink_to(store.parent / "elsewhere")
-
-
-def a_link_to_nothing(store: Path, name: str) -> None:
-    """Put a link to nothing in its place."""
-    (store / name).unlink()
-    (store / name).symlink_to(store.parent / "nowhere")
-
-
-ON_A_FILE: tuple[Damage, ...] = (
-    removed, cut, emptied, extended, flipped, zeroed, exchanged, a_folder, a_link, a_link_to_nothing,
-)  # fmt: skip
+#: Damage of one file.
+ON_A_FILE: dict[str, Callable[[Path], object]] = {
+    "removed": lambda path: path.unlink(),
+    "cut": lambda path: os.truncate(path, path.stat().st_size // 2),
+    "emptied": lambda path: os.truncate(path, 0),
+    "extended": lambda path: path.write_bytes(path.read_bytes() + b"\0more"),
+    "flipped": _flipped,
+    "zeroed": lambda path: path.write_bytes(bytes(path.stat().st_size)),  # as a file system may after a loss of power
+    "exchanged": _exchanged,
+    "a folder": lambda path: (path.unlink(), path.mkdir()),
+    "a link": _moved_and_linked,
+    "a link to nothing": functools.partial(_moved_and_linked, keep=False),
+}
 
 #: Kinds of files, by the paths in a finished and in an unfinished store.
 FILES = {
@@ -131,21 +97,14 @@ FILES = {
 
 
 def _another_plan(**changes: object) -> Callable[[Path], None]:
-    """The plan with other entries and a digest that fits."""
+    """The plan with other entries, without those that are None, and a digest that fits."""
 
     def damage(store: Path) -> None:
         path = store / OWN / "plan.json"
-        plan = read_sealed("plan", path.read_text(encoding="utf-8")) or {}
-        path.write_bytes(sealed("plan", plan | changes))
+        plan = (read_sealed("plan", path.read_text(encoding="utf-8")) or {}) | changes
+        path.write_bytes(sealed("plan", {name: value for name, value in plan.items() if value is not None}))
 
     return damage
-
-
-def _without_format(store: Path) -> None:
-    path = store / OWN / "plan.json"
-    plan = read_sealed("plan", path.read_text(encoding="utf-8")) or {}
-    del plan["format"]
-    path.write_bytes(sealed("plan", plan))
 
 
 def _of_another_sweep(model: bs.FrictionModel, **changes: object) -> Callable[[Path], None]:
@@ -250,7 +209,7 @@ ON_THE_STORE: dict[str, tuple[Callable[[Path], None], bool]] = {
     "format 1": (_another_plan(format=1), False),
     "format 99": (_another_plan(format=99), False),
     "format of text": (_another_plan(format="2"), False),
-    "no format": (_without_format, False),
+    "no format": (_another_plan(format=None), False),
     "other formulas": (_another_plan(formulas="0" * 64), True),
     "another shape": (_another_plan(shape=[7, 9, 4]), False),
     "another chunk": (_another_plan(chunks=[7, 9, 3]), False),
@@ -301,9 +260,8 @@ def kinds() -> list[Kind]:
     for finished in (True, False):
         for of_file, (whole, begun) in FILES.items():
             name = whole if finished else begun
-            for act in ON_A_FILE:
-                words = f"{of_file} {act.__name__.replace('_', ' ')}"
-                found.append(Kind(words, functools.partial(act, name=name), finished))
+            for done, act in ON_A_FILE.items():
+                found.append(Kind(f"{of_file} {done}", lambda store, act=act, name=name: act(store / name), finished))
         found += [Kind(words, damage, finished, good) for words, (damage, good) in ON_THE_STORE.items()]
     order = np.random.default_rng(0).permutation(len(found))
     return [found[i] for i in order]
@@ -328,11 +286,6 @@ def undamaged() -> tuple[Path, xr.Dataset]:
         with contextlib.suppress(KeyboardInterrupt):
             bs.sweep(MODEL, SCREW, OIL, to=folder / f"{prefix}unfinished", done=stop, **asked)
     return folder, numbers
-
-
-def run(tally: Tally, seed: int) -> None:
-    """Try all kinds of damage."""
-    workers.run(attempt, tally, seed)
 
 
 def attempt(_: int, number: int, __: int) -> Outcome:

@@ -1,4 +1,12 @@
-"""Mutated recorded motions, from which a duty is computed."""
+"""Mutated recorded motions, from which a duty is computed.
+
+Recorded motions of 20 to 200 rows as CSV, XLSX, MATLAB 5 and MATLAB 7.3, with the damage of the logs, with nothing but
+NUL, blank lines, separators or one row, with jumps, rests and clocks that stand still; the duty of a vertical axis over
+each, as JSON and as text.
+
+*Wrong*: an exception other than `InputError`; a warning of NumPy; a torque or an energy that is not finite without a
+warning; a process that dies or is silent for 30 s.
+"""
 
 from __future__ import annotations
 
@@ -10,10 +18,9 @@ from typing import Any
 
 import numpy as np
 from benchmarks.hostile import ROOT, logs, workers
-from benchmarks.hostile.mutations import OF_BYTES, OF_TEXT_BYTES, Random, chosen
-from benchmarks.hostile.tally import Outcome, Tally
+from benchmarks.hostile.mutations import Random, chosen
+from benchmarks.hostile.tally import Outcome
 
-from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
@@ -21,15 +28,6 @@ from ballscrew.questions.duty import answer, compute, verdicts
 from ballscrew.questions.duty.sheet import sheet
 
 COUNT, SECONDS = 300, 120.0
-TRIED = (
-    "recorded motions of 20 to 200 rows as CSV, XLSX, MATLAB 5 and MATLAB 7.3, with the damage of the logs, with "
-    "nothing but NUL, blank lines, separators or one row, with jumps, rests and clocks that stand still; the duty of a "
-    "vertical axis over each, as JSON and as text"
-)
-WRONG = (
-    "an exception other than `InputError`; a warning of NumPy; a torque or an energy that is not finite without a "
-    "warning; a process that dies or is silent for 30 s"
-)
 
 HEADINGS = {"time": "time [s]", "position": "position [mm]", "force": "force [N]", "temperature": "temperature [degC]"}
 NUMBERS = ("torque_peak", "torque_rms", "power_peak", "energy_drawn", "energy_lost")
@@ -47,11 +45,6 @@ EMPTY: dict[str, bytes] = {
     "two rows": b"time [s],position [mm]\n0,0\n1,5\n",
     "comments": b"# measured by hand\n" * 20,
 }
-
-
-def run(tally: Tally, seed: int) -> None:
-    """Try mutated motions."""
-    workers.run(attempt, tally, seed)
 
 
 def _jump(data: dict[str, Any], rng: Random) -> dict[str, Any]:
@@ -87,18 +80,8 @@ def trace(rng: Random) -> tuple[str, str, bytes]:
     # the mutations of logs take the length from the torque
     changed = OF_COLUMNS[done := chosen(rng, list(OF_COLUMNS))]({**data, "torque": time}, rng)
     data = {name: values for name, values in changed.items() if name != "torque"}
-    kind = chosen(rng, ["csv", "csv", "csv", *logs.FILES])
-    cells = [
-        [HEADINGS[name] for name in data],
-        *[[f"{v:.9g}" for v in row] for row in zip(*data.values(), strict=True)],
-    ]
-    words = [done, chosen(rng, list(logs.OF_CELLS)) if rng.random() < 0.4 else "nothing"]
-    content = logs.FILES[kind](logs.OF_CELLS[words[1]](cells, rng), rng) if data else b""
-    if rng.random() < 0.2:
-        damages = OF_TEXT_BYTES if kind == "csv" else OF_BYTES
-        words.append(chosen(rng, list(damages)))
-        content = damages[words[-1]](content, rng)
-    return kind, ", ".join(words), content
+    kind, others, content = logs.written(data, HEADINGS, rng, 0.2)
+    return kind, f"{done}, {others}", content
 
 
 @functools.cache
@@ -112,17 +95,13 @@ def attempt(seed: int, number: int, _: int) -> Outcome:
     kind, done, content = trace(rng)
     path = workers.folder() / f"trace.{kind}"
     path.write_bytes(content)
-    words = f"attempt {number} (.{kind}: {done})"
-    try:
+
+    def work() -> str:
         tables = {**_tables(), "motion": {"kind": "trajectory", "file": str(path)}}
         report = compute.duty(case_file.build(tables, None, ROOT / "examples", moves=True))
         as_json(answer.document(report))
         terminal.text(sheet(report))
-    except InputError:
-        return Outcome(refused=1)
-    except Exception as error:
-        return Outcome(wrong=[f"{words}: {workers.last_line(error)}"])
-    bad = [name for name in NUMBERS if not math.isfinite(report.numbers[name])]
-    if bad and not verdicts.warnings(report):
-        return Outcome(wrong=[f"{words}: {', '.join(bad)} not finite, without a warning"])
-    return Outcome(answered=1)
+        bad = [name for name in NUMBERS if not math.isfinite(report.numbers[name])]
+        return f"{', '.join(bad)} not finite, without a warning" if bad and not verdicts.warnings(report) else ""
+
+    return workers.judged(f"attempt {number} (.{kind}: {done})", work)

@@ -1,4 +1,11 @@
-"""Users at work on one server at the same time, whose answers are compared with those computed in process."""
+"""Users at work on one server at the same time, whose answers are compared with those computed in process.
+
+Users of one `ballscrew serve` at the same time for three minutes, each with a request some two seconds after the last
+answer: run, sweep, band, comparison, catalogue and now and then a report (the column counts requests).
+
+*Wrong*: an answer other than the one computed in process, to 1e-10; a status other than 200 and 429 (busy: counted as
+refused); no answer within 60 s; a server that is dead or has written to standard error.
+"""
 
 from __future__ import annotations
 
@@ -23,16 +30,6 @@ from benchmarks.serve import CASE, NUT, memory_of
 from support.documents import differences
 
 COUNT, SECONDS = 50, 180.0
-TRIED = (
-    "users of one `ballscrew serve` at the same time for three minutes, each with a request some two seconds after "
-    "the last "
-    "answer: run, sweep, band, comparison, catalogue and now and then a report (the column counts requests)"
-)
-WRONG = (
-    "an answer other than the one computed in process, to 1e-10; a status other than 200 and 429 (busy: counted as "
-    "refused); no answer "
-    "within 60 s; a server that is dead or has written to standard error"
-)
 
 #: Mean seconds between an answer and the next request.
 PAUSE = 2.0

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from benchmarks.hostile.tally import Outcome, Tally
 
-from ballscrew import ImplausibleInput
+from ballscrew import ImplausibleInput, InputError
 
 PROCESSES = 2
 #: Seconds for one attempt; it takes some at most.
@@ -43,6 +43,25 @@ def last_line(error: BaseException) -> str:
     frame = traceback.extract_tb(error.__traceback__)[-1]
     words = " ".join(str(error).split())
     return f"{type(error).__name__}: {words[:200]} ({Path(frame.filename).name}:{frame.lineno})"
+
+
+def judged(words: str, work: Callable[[], str]) -> Outcome:
+    """The outcome of work that says what is wrong, or raises ``InputError`` to refuse its input, and nothing else."""
+    try:
+        wrong = work()
+    except InputError:
+        return Outcome(refused=1)
+    except Exception as error:
+        wrong = last_line(error)
+    return Outcome(wrong=[f"{words}: {wrong}"]) if wrong else Outcome(answered=1)
+
+
+def faults_of_command(code: int, said: str) -> list[str]:
+    """What is wrong with the end of a command: a traceback, an exit code of its own, a refusal without a word."""
+    last = (said.strip().splitlines() or [""])[-1][:200]
+    if code not in (0, 2) or "Traceback" in said:
+        return [f"ended with {code}: {last}"]
+    return [] if code == 0 or last else ["refused without a word"]
 
 
 def use(place: str) -> None:

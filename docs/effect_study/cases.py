@@ -204,15 +204,8 @@ def sensitivities(case: Case) -> tuple[Sensitivity, ...]:
     reference = FrictionModel.reference()
     at_reference = float(case.result(reference).screw_torque)
 
-    def friction(**coefficients: float) -> FrictionModel:
-        return dataclasses.replace(reference, friction=RunInSharing(**coefficients))
-
     def torques(*models: FrictionModel) -> tuple[float, ...]:
         return tuple(float(case.result(model).screw_torque) for model in models)
-
-    def thinner(factor: float) -> Case:
-        oil = dataclasses.replace(case.oil, viscosity=factor * case.oil.viscosity)
-        return dataclasses.replace(case, oil=oil)
 
     def rough(*heights: float) -> tuple[float, ...]:
         return tuple(
@@ -220,55 +213,28 @@ def sensitivities(case: Case) -> tuple[Sensitivity, ...]:
             for height in heights
         )
 
+    def with_slot(slot: str, *laws: Any) -> tuple[float, ...]:
+        return torques(*(dataclasses.replace(reference, **{slot: law}) for law in laws))
+
+    def frictions(name: str, *values: float) -> tuple[float, ...]:
+        return with_slot("friction", *(RunInSharing(**{name: value}) for value in values))
+
+    boundary, film = (f"{which}_friction_coefficient" for which in ("boundary", "full_film"))
+    pairs = with_slot("friction", *(RunInSharing(decay=B, exponent=C) for B, C in DECAYS[1:]))
+    films = frictions(film, 0.035, 0.053)
+    oils = [dataclasses.replace(case.oil, viscosity=factor * case.oil.viscosity) for factor in (0.5, 2.0)]
+    warm = tuple(float(dataclasses.replace(case, oil=oil).result(reference).screw_torque) for oil in oils)
+    supplied = *with_slot("inlet", Inlet(inlet_film_ratio=10.0)), *with_slot("rolling", houpert_rolling)
+    shares = with_slot("ball_force", *map(ProportionalBallForce, (0.0, 0.0225)))
     found = (
-        (
-            "boundary friction µ_0",
-            "0.12",
-            "0.08, 0.20",
-            torques(*(friction(boundary_friction_coefficient=mu) for mu in (0.08, 0.2))),
-        ),
-        (
-            "load share of the asperities: B, C",
-            "1.42, 0.80",
-            "the other three published pairs",
-            torques(*(friction(decay=B, exponent=C) for B, C in DECAYS[1:])),
-        ),
-        (
-            "oil temperature",
-            "as stated",
-            "half and double the viscosity",
-            tuple(float(thinner(factor).result(reference).screw_torque) for factor in (0.5, 2.0)),
-        ),
+        ("boundary friction µ_0", "0.12", "0.08, 0.20", frictions(boundary, 0.08, 0.2)),
+        ("load share of the asperities: B, C", "1.42, 0.80", "the other three published pairs", pairs),
+        ("oil temperature", "as stated", "half and double the viscosity", warm),
         ("roughness of the races", "0.3 µm", "0.15, 0.5 µm", rough(0.15e-6, 0.5e-6)),
-        (
-            "friction of the full film",
-            "0.05",
-            "0.035 (PAO), 0.053 (naphthenic), Arana2019",
-            torques(*(friction(full_film_friction_coefficient=mu) for mu in (0.035, 0.053))),
-        ),
-        (
-            "running in of the surfaces: λ_r",
-            "0.7",
-            "0 (new), 1.4",
-            torques(*(friction(run_in_film_parameter=lam) for lam in (0.0, 1.4))),
-        ),
-        (
-            "oil supply of the inlet",
-            "an oil bath",
-            "S = 10, and the law of Houpert1987",
-            torques(
-                dataclasses.replace(reference, inlet=Inlet(inlet_film_ratio=10.0)),
-                dataclasses.replace(reference, rolling=houpert_rolling),
-            ),
-        ),
-        (
-            "ball-to-ball force",
-            "0.0075 Q",
-            "0, 0.0225 Q",
-            torques(
-                *(dataclasses.replace(reference, ball_force=ProportionalBallForce(share)) for share in (0.0, 0.0225))
-            ),
-        ),
+        ("friction of the full film", "0.05", "0.035 (PAO), 0.053 (naphthenic), Arana2019", films),
+        ("running in of the surfaces: λ_r", "0.7", "0 (new), 1.4", frictions("run_in_film_parameter", 0.0, 1.4)),
+        ("oil supply of the inlet", "an oil bath", "S = 10, and the law of Houpert1987", supplied),
+        ("ball-to-ball force", "0.0075 Q", "0, 0.0225 Q", shares),
     )
     rows = [Sensitivity(*row, reference=at_reference) for row in found]
     return tuple(sorted(rows, key=lambda row: row.lowest - row.highest))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,9 +12,8 @@ from matplotlib.figure import Figure
 
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.questions.shared import charts
-from ballscrew.questions.shared.charts import Columns, Plot
 from effect_study import curves
-from effect_study.cases import CASES, Case, Effect, effects
+from effect_study.cases import Case, Effect, effects
 from effect_study.cases import steps as reference_steps
 
 Cases = Mapping[str, Case]
@@ -46,6 +45,16 @@ def mathtext(words: str) -> str:
     return re.sub(r"(\w)_(\w+)", r"\1$_{\2}$", words)
 
 
+def framed(
+    panel: Axes, x: str, y: str, title: str = "", xlim: Any = None, ylim: Any = None, legend: str | None = None
+) -> None:
+    """Words on the axes of a panel, with the indices of symbols set low; its ends, and its legend."""
+    panel.set(xlabel=mathtext(x), ylabel=mathtext(y), **({"title": mathtext(title)} if title else {}))
+    panel.set(**{name: ends for name, ends in (("xlim", xlim), ("ylim", ylim)) if ends is not None})
+    if legend is not None:
+        panel.legend(loc=legend)
+
+
 #: Spaces at which a caption must not break: in "F = 4000 N", "40 × 10", "1/z N".
 _TIED = re.compile(
     r"(?<=[=×]) | (?=[=×])|(?<=\d) (?=(?:mm|N|rpm|GPa|Pa|1/GPa|balls)\b|°C)|(?<=1/z) |(?<=\bPa) (?=s\b)"
@@ -59,11 +68,6 @@ def case_caption(cases: Cases, words: str, varied: Sequence[str] = ()) -> str:
     return mathtext(_TIED.sub("\N{NO-BREAK SPACE}", f"{words} {captions}"))
 
 
-def drawn_cases() -> Cases:
-    """The cases of the figures."""
-    return CASES
-
-
 def titled(panels: Sequence[Axes], cases: Cases) -> list[tuple[Axes, Case]]:
     """Each panel with its case, titled."""
     pairs = list(zip(panels, cases.values(), strict=True))
@@ -74,8 +78,7 @@ def titled(panels: Sequence[Axes], cases: Cases) -> list[tuple[Axes, Case]]:
 
 def _label(panels: Sequence[Axes], x: str, y: str) -> None:
     for panel in panels:
-        panel.set_xlabel(x)
-        panel.set_ylabel(y)
+        framed(panel, x, y)
 
 
 def _upward_legend(panel: Axes, **options: Any) -> None:
@@ -98,13 +101,6 @@ def _stack(panel: Axes, x: Any, result: FrictionResult, total: Any = 1.0) -> Non
         colors=tuple(STACK.values()),
         linewidth=0,
     )
-
-
-def _parts(x_heading: str, x: Any, result: FrictionResult, where: str) -> Columns:
-    columns: dict[str, Any] = {x_heading: x}
-    for mechanism, words in MECHANISMS.items():
-        columns[f"{words}, {where} (N m)"] = np.asarray(result.contributions[mechanism])
-    return columns
 
 
 # -- the steps ------------------------------------------------------------------------------------
@@ -143,18 +139,6 @@ def _bars(panel: Axes, found: Sequence[Effect]) -> None:
         panel.text(effect.torque, row, f" {effect.torque:.3f}{added}", va="center", ha="left", fontsize=9)
 
 
-def _steps_table(cases: Cases) -> Columns:
-    columns: dict[str, Any] = {}
-    for case in cases.values():
-        found = effects(case)
-        columns.setdefault("with all effects down to", [effect.description for effect in found])
-        columns[f"friction torque, {case.title} (N m)"] = [effect.torque for effect in found]
-        columns[f"efficiency, {case.title} (1)"] = [effect.efficiency for effect in found]
-        for mechanism, words in MECHANISMS.items():
-            columns[f"{words}, {case.title} (N m)"] = [effect.parts[mechanism] for effect in found]
-    return columns
-
-
 # -- over speed -----------------------------------------------------------------------------------
 
 
@@ -166,19 +150,10 @@ def parts_over_speed(cases: Cases) -> Figure:
         result = results["reference"]
         _stack(panel, speed, result)
         panel.plot(speed, result.screw_torque, color=charts.INK, label="total")
-        panel.set_xlim(0, 3000)
-        panel.set_ylim(0, 1.5 * float(np.max(result.screw_torque)))
+        panel.set(xlim=(0, 3000), ylim=(0, 1.5 * float(np.max(result.screw_torque))))
         _upward_legend(panel, loc="upper left", ncols=2)
     _label(panels, SPEED, TORQUE)
     return figure
-
-
-def _speed_table(cases: Cases) -> Columns:
-    columns: dict[str, Any] = {}
-    for case in cases.values():
-        speed, results = curves.over_speed(case)
-        columns |= _parts("screw speed (rpm)", speed, results["reference"], case.title)
-    return columns
 
 
 # -- three models ---------------------------------------------------------------------------------
@@ -193,27 +168,10 @@ def models_over_speed_and_load(cases: Cases) -> Figure:
             abscissa, results = of(case)
             for name, (words, line, colour) in MODEL_LINES.items():
                 panel.plot(abscissa, results[name].screw_torque, ls=line, color=colour, label=words)
-            panel.set_xlim(0, float(abscissa[-1]))
-            panel.set_ylim(bottom=0)
+            panel.set(xlim=(0, float(abscissa[-1])), ylim=(0, None))
         _label(row, x, TORQUE)
     charts.shared_legend(panels, loc="lower right")
     return figure
-
-
-def _models_table(cases: Cases) -> Columns:
-    columns: dict[str, Any] = {}
-    for case in cases.values():
-        for x, of in (("speed", curves.over_speed), ("load", curves.over_load)):
-            abscissa, results = of(case)
-            columns[f"{x}, {case.title} ({'rpm' if x == 'speed' else 'N'})"] = _padded(abscissa)
-            for name, result in results.items():
-                columns[f"friction torque over {x}, {name}, {case.title} (N m)"] = _padded(result.screw_torque)
-    return columns
-
-
-def _padded(values: Any, length: int = 200) -> list[Any]:
-    """A column as long as the others, empty below."""
-    return [*np.asarray(values).tolist(), *[""] * (length - len(values))]
 
 
 # -- over lead ------------------------------------------------------------------------------------
@@ -233,19 +191,10 @@ def parts_over_lead(cases: Cases) -> Figure:
         own = float(case.screw.lead)
         height = float(np.interp(own, lead, np.asarray(result.screw_torque)))
         panel.vlines(own * 1e3, 0, height, color=charts.INK, linestyle=":", linewidth=1.2)
-        panel.set_xlim(lead[0] * 1e3, lead[-1] * 1e3)
-        panel.set_ylim(0, 1.45 * float(np.max(result.screw_torque)))
+        panel.set(xlim=(lead[0] * 1e3, lead[-1] * 1e3), ylim=(0, 1.45 * float(np.max(result.screw_torque))))
         _upward_legend(panel, loc="upper left", ncols=2)
     _label(panels, LEAD, TORQUE)
     return figure
-
-
-def _lead_table(cases: Cases) -> Columns:
-    columns: dict[str, Any] = {}
-    for case in cases.values():
-        lead, result = curves.over_lead(case)
-        columns |= _parts(f"lead, {case.title} (mm)", lead * 1e3, result, case.title)
-    return columns
 
 
 # -- over load ------------------------------------------------------------------------------------
@@ -268,9 +217,7 @@ def light_load(cases: Cases) -> Figure:
             torques.loglog(load, results[name].screw_torque, ls=line, color=colour, label=label)
         skids, rigid = (curves.largest_flagged_load(case, reason) for reason in ("skid", "elastic_regime"))
         for panel in (shares, torques):
-            panel.set_title(case.title)
-            panel.set_xscale("log")
-            panel.set_xlim(load[0], load[-1])
+            panel.set(title=case.title, xscale="log", xlim=(load[0], load[-1]))
             panel.axvspan(load[0], skids, facecolor=charts.GREY, alpha=0.35, zorder=2.5, label="the ball skids")
             panel.axvspan(skids, rigid, facecolor="none", edgecolor=charts.GREY, hatch="//", linewidth=0, zorder=2.5)
         shares.set_ylim(0, 1)
@@ -281,21 +228,11 @@ def light_load(cases: Cases) -> Figure:
     return figure
 
 
-def _light_table(cases: Cases) -> Columns:
-    columns: dict[str, Any] = {}
-    for case in cases.values():
-        load, results = curves.over_light_load(case)
-        result = results["reference"]
-        columns |= _parts(f"axial load, {case.title} (N)", load, result, case.title)
-        columns[f"share of rolling carried, {case.title} (1)"] = np.asarray(result.rolling_share)
-        columns[f"the ball skids, {case.title} (1 = yes)"] = (~np.asarray(result.validity["skid"])).astype(int)
-    return columns
-
-
-PLOTS = (
-    Plot("effects_steps", steps, _steps_table),
-    Plot("effects_parts_over_speed", parts_over_speed, _speed_table),
-    Plot("effects_models", models_over_speed_and_load, _models_table),
-    Plot("effects_lead", parts_over_lead, _lead_table),
-    Plot("effects_light_load", light_load, _light_table),
-)
+#: The figures by name.
+DRAWN: Mapping[str, Callable[[Cases], Figure]] = {
+    "effects_steps": steps,
+    "effects_parts_over_speed": parts_over_speed,
+    "effects_models": models_over_speed_and_load,
+    "effects_lead": parts_over_lead,
+    "effects_light_load": light_load,
+}

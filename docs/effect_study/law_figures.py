@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -13,10 +14,9 @@ from ballscrew.physics.friction.result import (
     FrictionResult,
 )
 from ballscrew.questions.shared import charts
-from ballscrew.questions.shared.charts import Columns, Plot
 from effect_study import curves
 from effect_study.cases import PAPER, RPM, Case
-from effect_study.effect_figures import Cases, case_caption, mathtext
+from effect_study.effect_figures import Cases, case_caption, framed, mathtext
 
 # -- slip over spin -------------------------------------------------------------------------------
 
@@ -38,9 +38,7 @@ def slip_over_spin(cases: Cases) -> Figure:
     ):
         moments.plot(E_s, closed, color=colour, label=words)
         moments.plot(E_s, polynomial, "--", color=colour, linewidth=1.2)
-    moments.set_ylim(-0.25, 2.25)
-    moments.set_ylabel("moment / its largest value (1)")
-    moments.set_title("moments")
+    moments.set(ylim=(-0.25, 2.25), ylabel="moment / its largest value (1)", title="moments")
     powers.stackplot(
         E_s,
         [found.curvature_power, found.spin_power],
@@ -58,14 +56,11 @@ def slip_over_spin(cases: Cases) -> Figure:
             case.title, (at, height), xytext=(10, -6), textcoords="offset points", ha="left", fontsize=9,
             bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.9, "boxstyle": "round,pad=0.2"},
         )  # fmt: skip
-    powers.set_ylabel("slip power / that of curvature alone (1)")
-    powers.set_title("power")
-    powers.set_ylim(bottom=0)
+    powers.set(ylabel="slip power / that of curvature alone (1)", title="power", ylim=(0, None))
     at_one_line = float(np.interp(found.one_line_from, E_s, total))
     for panel, bottom, top in ((moments, -0.25, 1.0), (powers, 0.0, at_one_line)):
         panel.vlines(found.one_line_from, bottom, top, color=charts.INK, linestyle=":", linewidth=1.2)
-        panel.set_xlim(0, 2.5)
-        panel.set_xlabel("spin parameter E$_s$ (1)")
+        panel.set(xlim=(0, 2.5), xlabel="spin parameter E$_s$ (1)")
         panel.legend(loc="upper left")
     return figure
 
@@ -74,19 +69,6 @@ def half_spin_parameter(case: Case) -> float:
     """Spin parameter of the screw contact with half of the ball's spin."""
     contact = case.result(curves.MODELS["reference"]).screw
     return float(contact.spin_parameter * contact.motion.spin / contact.spin)
-
-
-def _spin_table(_cases: Cases) -> Columns:
-    found = curves.spin_curves()
-    return {
-        "spin parameter (1)": found.spin_parameter,
-        "curvature moment (1)": found.curvature,
-        "spin moment (1)": found.spin,
-        "curvature moment, polynomial (1)": found.curvature_polynomial,
-        "spin moment, polynomial (1)": found.spin_polynomial,
-        "power of curvature slip (1)": found.curvature_power,
-        "power of spin slip (1)": found.spin_power,
-    }
 
 
 # -- slip in the contacts -------------------------------------------------------------------------
@@ -105,9 +87,12 @@ def slip_fields(cases: Cases) -> Figure:
         images: list[Any] = []
         for panel, on_screw in zip(row, (True, False), strict=True):
             images.append(_slip_field(panel, result, on_screw, fastest))
-            panel.set_title(f"{case.title}: ball on {'screw' if on_screw else 'nut'}")
-            panel.set_xlabel("across the path (mm)")
-            panel.set_ylabel("along the path (mm)")
+            framed(
+                panel,
+                "across the path (mm)",
+                "along the path (mm)",
+                f"{case.title}: ball on {'screw' if on_screw else 'nut'}",
+            )
         bar = figure.colorbar(images[-1], ax=list(row), pad=0.02, aspect=14)
         bar.set_label("slip (mm/s)")
     return figure
@@ -164,23 +149,9 @@ def _slip_field(panel: Axes, result: FrictionResult, on_screw: bool, fastest: fl
     for height in heights[1:][np.diff(np.sign(path)) != 0]:
         half = b * float(np.sqrt(1 - height**2))
         panel.plot([height * a] * 2, [-half, half], color=charts.INK, linestyle="--", linewidth=1, zorder=3)
-    panel.set_xlim(-1.12 * a, 1.12 * a)
-    panel.set_ylim(-1.25 * b, 1.25 * b)
+    panel.set(xlim=(-1.12 * a, 1.12 * a), ylim=(-1.25 * b, 1.25 * b))
     panel.grid(visible=False)
     return image
-
-
-def _field_table(cases: Cases) -> Columns:
-    columns: dict[str, Any] = {"height across / semi-axis (1)": np.linspace(-1, 1, 201)}
-    for case in cases.values():
-        result = case.result(curves.MODELS["reference"])
-        for on_screw in (True, False):
-            t = columns["height across / semi-axis (1)"]
-            picture = curves.slip_picture(result, on_screw, t, 0 * t)
-            where = f"{case.title}, {'screw' if on_screw else 'nut'}"
-            columns[f"slip along the path, {where} (mm/s)"] = picture.slip_along * 1e3
-            columns[f"slip across the path in the middle, {where} (mm/s)"] = picture.slip_across * 1e3 + 0 * t
-    return columns
 
 
 # -- rolling forces -------------------------------------------------------------------------------
@@ -208,30 +179,13 @@ def rolling_laws(cases: Cases) -> Figure:
             within = found.elastic if name in curves.ELASTIC_ONLY else np.ones_like(found.elastic)
             panel.plot(found.abscissa / scale, ratio, ls=line, color=colour, alpha=0.3, linewidth=1.2)
             panel.plot(found.abscissa / scale, np.where(within, ratio, np.nan), ls=line, color=colour, label=name)
-        panel.set_xscale("log")
-        panel.set_xlabel(x)
-        panel.set_ylabel("rolling force / that of the reference (1)")
-        panel.set_ylim(0, 1.75)
+        panel.set(xscale="log", xlabel=x, ylabel="rolling force / that of the reference (1)", ylim=(0, 1.75))
     at = PAPER.result(curves.MODELS["reference"])
     panels[0].set_title(f"over load, at {PAPER.screw_speed / RPM:.0f} rpm")
     panels[1].set_title(f"over speed, at {float(at.contact_load):.0f} N a ball")
     panels[0].legend(loc="upper left")
     panels[1].legend(loc="lower left")
     return figure
-
-
-def _rolling_table(_cases: Cases) -> Columns:
-    columns: dict[str, Any] = {}
-    for found, heading, scale in (
-        (curves.rolling_over_load(), "contact load (N)", 1.0),
-        (curves.rolling_over_speed(), "screw speed (rpm)", RPM),
-    ):
-        x = heading.partition(" (")[0]
-        columns[heading] = found.abscissa / scale
-        for name, force in found.forces.items():
-            columns[f"rolling force over {x}, {name} (N)"] = force
-        columns[f"elastic over {x} (1 = yes)"] = found.elastic.astype(int)
-    return columns
 
 
 # -- load shares ----------------------------------------------------------------------------------
@@ -259,25 +213,15 @@ def load_shares(cases: Cases) -> Figure:
         ("share of the asperities w (1)", "friction coefficient µ$_m$ (1)"), strict=True,
     ):  # fmt: skip
         panel.axvline(at, color=charts.GREY, linestyle=":", linewidth=1.2)
-        panel.set_title(title)
-        panel.set_xlim(0, 4)
-        panel.set_ylim(bottom=0)
-        panel.set_xlabel("film parameter λ (1)")
-        panel.set_ylabel(y)
+        framed(panel, "film parameter λ (1)", y, title, xlim=(0, 4), ylim=(0, None))
         panel.legend(loc="upper right", fontsize=8)
     return figure
 
 
-def _share_table(_cases: Cases) -> Columns:
-    found = curves.share_curves()
-    columns: dict[str, Any] = {"film parameter (1)": found.film_parameter}
-    columns |= {f"share of the asperities, {name} (1)": share for name, share in found.shares.items()}
-    return columns | {f"friction coefficient, {name} (1)": mu for name, mu in found.coefficients.items()}
-
-
-PLOTS = (
-    Plot("effects_slip_over_spin", slip_over_spin, _spin_table),
-    Plot("effects_slip_fields", slip_fields, _field_table),
-    Plot("effects_rolling_laws", rolling_laws, _rolling_table),
-    Plot("effects_load_shares", load_shares, _share_table),
-)
+#: The figures by name.
+DRAWN: Mapping[str, Callable[[Cases], Figure]] = {
+    "effects_slip_over_spin": slip_over_spin,
+    "effects_slip_fields": slip_fields,
+    "effects_rolling_laws": rolling_laws,
+    "effects_load_shares": load_shares,
+}

@@ -13,7 +13,7 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.shared import charts
 from effect_study import nut_curves as curves
 from effect_study.cases import RPM
-from effect_study.effect_figures import mathtext
+from effect_study.effect_figures import framed, mathtext
 
 KILO, MICRO = 1e3, 1e-6
 NUT_STYLES: Mapping[str, tuple[str, Any]] = {
@@ -56,9 +56,9 @@ def distribution() -> Figure:
     scatter.set_title("And the balls differ")
     for panel in (bodies, scatter):
         panel.axhline(data.rigid, color=charts.GREY, linestyle=":", label="rigid, equal")
-        panel.set_xlabel("ball, from the end where the load enters")
-        panel.set_ylabel("load of the ball Q$_i$ (N)")
-        panel.set_ylim(0, 1.45 * data.rigid)
+        framed(
+            panel, "ball, from the end where the load enters", "load of the ball Q$_i$ (N)", ylim=(0, 1.45 * data.rigid)
+        )
     charts.shared_legend((bodies, scatter), loc="lower left")
     return figure
 
@@ -76,14 +76,12 @@ def preload() -> Figure:
     flanks.plot(x, x + relieved, color=charts.BLUE, label="half that carries the load")
     flanks.plot(x, relieved, color=charts.SKY, linestyle="--", label="half that is relieved")
     flanks.axvline(float(double.lift_off_load[0]) / KILO, color=charts.GREY, linestyle=":", label="lift-off")
-    flanks.set_ylabel("axial force of the half (kN)")
-    flanks.set_title("Double nut: what each half carries")
+    flanks.set(ylabel="axial force of the half (kN)", title="Double nut: what each half carries")
     flanks.legend(loc="upper left")
     for words, loads in data.loads.items():
         colour, line = NUT_STYLES[words]
         moves.plot(x, loads.deflection / MICRO, color=colour, linestyle=line, label=words)
-    moves.set_ylabel("deflection (µm)")
-    moves.set_title("How far the nut gives way")
+    moves.set(ylabel="deflection (µm)", title="How far the nut gives way")
     moves.legend(loc="upper left")
     for panel in (flanks, moves):
         panel.set_xlabel(LOAD)
@@ -104,12 +102,8 @@ def torque() -> Figure:
         colour, line = NUT_STYLES[words]
         friction.plot(x, result.screw_torque, color=colour, linestyle=line, label=words)
         efficiency.plot(x[1:], result.efficiency[1:], color=colour, linestyle=line, label=words)
-    friction.set_ylabel("friction torque M$_S$ (N m)")
-    friction.set_ylim(bottom=0)
-    friction.set_title("What the preload costs")
-    efficiency.set_ylabel("efficiency η")
-    efficiency.set_ylim(0, 1)
-    efficiency.set_title("And what it leaves")
+    friction.set(ylabel="friction torque M$_S$ (N m)", ylim=(0, None), title="What the preload costs")
+    efficiency.set(ylabel="efficiency η", ylim=(0, 1), title="And what it leaves")
     for panel in (friction, efficiency):
         panel.set_xlabel(LOAD)
     friction.legend(loc="lower right")
@@ -137,10 +131,13 @@ def drag() -> Figure:
             panel.plot(data.lead_ratio, values, color=colour, linestyle=line, label=f"model, {words}")
             panel.axhline(data.rexroth[words], color=colour, linewidth=0.9, linestyle=":", label=f"Rexroth, {words}")
         panel.plot(data.lead_ratio, data.jis, color=charts.GREEN, linewidth=0.9, linestyle="-.", label="JIS, all nuts")
-        panel.set_title(f"Reference model, {title}")
-        panel.set_xlabel("lead over nominal diameter P$_h$/d$_0$")
-        panel.set_ylabel("drag T/(F$_{pr}$ d$_0$)")
-        panel.set_ylim(0, 0.015)
+        framed(
+            panel,
+            "lead over nominal diameter P$_h$/d$_0$",
+            "drag T/(F$_{pr}$ d$_0$)",
+            f"Reference model, {title}",
+            ylim=(0, 0.015),
+        )
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 

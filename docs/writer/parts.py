@@ -12,17 +12,17 @@ from kept import ROOT, Kept, Record
 #: What makes each part. A name with a suffix is a file, else it is a folder.
 PARTS = {
     "validation": "validation_tables:write",
-    "calibration": "calibration_pages:write",
     "nuts": "nut_tables:write",
-    "accuracy.md": "accuracy_table:page",
+    "accuracy": "accuracy_table:write",
+    "claims.md": "ballscrew.questions.reproduce.reproduction:claims_table",
     "olaru2005": "ballscrew.questions.reproduce.reproduction:reproduce_olaru2005",
     "effects": "effect_tables:write",
     "theory": "theory_figures:write",
     "uncertainty": "uncertainty_tables:write",
     "warm_up": "warm_up_tables:write",
     "starvation": "starvation_tables:write",
-    "sensitivity": "sensitivity_figures:write",
-    "errata.md": "errata_page:page",
+    "calibration_example.txt": "calibration_example",
+    "errata.md": "errata_page:rest",
     "bearings": "bearing_comparison:write",
     "api": "api_tables:write",
     "cards.md": "card_table:tables",
@@ -38,6 +38,7 @@ PARTS = {
 NUMBERS = {
     "validation_": ("numbers/validation.json", "validation_tables:numbers"),
     "t_": ("numbers/theory.json", "theory_numbers:numbers"),
+    "errata_": ("numbers/errata.json", "errata_page:numbers"),
     "": ("numbers/effects.json", "effect_tables:numbers"),
 }
 MAKERS = {**dict(NUMBERS.values()), **PARTS}

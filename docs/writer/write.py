@@ -10,7 +10,8 @@ So a page reads where it lies, without a build. What is written stands between m
 - ``command``: the command and what it prints. ``show`` chooses parts, by words in their first and last lines, and says
   with a ``…`` where others are left out. ``keep`` puts files that the command wrote into ``figures/PAGE``;
 - ``include``: a table or a text that a program makes (``parts.py`` lists them), or one of ``docs/*.inc``;
-- ``file``: a file of the repository as code, whole, ``from`` a line, ``to`` before another, or its first ``lines``;
+- ``file``: a file of the repository, or one that a command of the page has kept (``commands/PAGE/NAME``), as code:
+  whole, ``from`` a line, ``to`` before another, or its first ``lines``;
 - ``equation``: the formula of a function, with its symbols, units and source;
 - ``<!--= NAME-->0.87<!--/-->``: a number.
 
@@ -115,7 +116,11 @@ class Written:
         """The parts whose tables, numbers or figures it has."""
         included = {block["what"] for block in self.blocks if block["kind"] in ("include", "file")}
         return {
-            *(part_of(name) for name in included if not name.endswith(".inc") and not (ROOT / name).is_file()),
+            *(
+                part_of(name)
+                for name in included
+                if not name.endswith(".inc") and not name.startswith("commands/") and not (ROOT / name).is_file()
+            ),
             *map(part_of, self.made_here(self.figures) - self.kept),
             *map(numbers_of, self.numbers),
         }

@@ -1,12 +1,9 @@
 """The tests that ``make quick`` chooses, of a map made up by hand."""
 
-import importlib.util
-import sys
-from pathlib import Path
-
 import pytest
 
-TOOLS = Path(__file__).parents[2] / "tools" / "mutation"
+from support.tools import tool
+
 #: Tests, the seconds of each, and which run a function of the film, or one that all of them run.
 TESTS = [
     "tests/a/test_film.py::one",
@@ -20,12 +17,8 @@ FILM, ALL = "physics/equations/film.py:thickness", "basis/arrays.py:where"
 @pytest.fixture(scope="module")
 def quick():
     """The module that chooses."""
-    spec = importlib.util.spec_from_file_location("mutation_quick", TOOLS / "quick.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # a named tuple looks for its module there
-    spec.loader.exec_module(module)
-    yield module
-    del sys.modules[spec.name]
+    with tool("mutation", "reach", "quick") as (_, found):
+        yield found
 
 
 @pytest.fixture

@@ -1,10 +1,9 @@
-"""The figures of the effects: units on the axes, the case in the caption, nothing clipped, the numbers beside them."""
+"""The figures of the effects: units on the axes, the case in the caption, nothing clipped."""
 
 import importlib.util
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -12,32 +11,33 @@ from matplotlib.text import Text
 
 from ballscrew.questions.shared import charts
 from effect_study import effect_figures, law_figures
+from effect_study.cases import CASES, effects
 
-PLOTS = {plot.name: plot for plot in (*effect_figures.PLOTS, *law_figures.PLOTS)}
+PLOTS = {**effect_figures.DRAWN, **law_figures.DRAWN}
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module", params=PLOTS)
-def plot(request):
-    return PLOTS[request.param]
+def name(request):
+    return request.param
 
 
 @pytest.fixture(scope="module")
-def figure(plot):
+def figure(name):
     """Laid out as for a PNG."""
     with charts.house_style():
-        drawn = plot.draw(effect_figures.drawn_cases())
+        drawn = PLOTS[name](CASES)
         FigureCanvasAgg(drawn)
         drawn.draw_without_rendering()
     return drawn
 
 
-def test_axes_name_their_units(plot, figure):
+def test_axes_name_their_units(name, figure):
     units = r"\((rpm|N|N m|mm|mm/s|1)\)$"
     for panel in figure.axes:
         if panel.get_label() != "<colorbar>":
             assert re.search(units, panel.get_xlabel())
-        if plot.name != "effects_steps":  # words there
+        if name != "effects_steps":  # words there
             assert re.search(units, panel.get_ylabel())
 
 
@@ -55,7 +55,7 @@ def test_caption_leaves_out_what_varies():
         ("effects_light_load", "F =", "n ="),
     ):
         with charts.house_style():
-            caption = PLOTS[name].draw(effect_figures.drawn_cases()).texts[-1].get_text()
+            caption = PLOTS[name](CASES).texts[-1].get_text()
         assert varied not in caption.replace("\N{NO-BREAK SPACE}", " ")
         assert stated in caption.replace("\N{NO-BREAK SPACE}", " ")
 
@@ -82,35 +82,24 @@ def test_nothing_is_clipped(figure):
             assert inside, text.get_text()
 
 
-def test_table_holds_the_numbers(plot):
-    table = plot.table(effect_figures.drawn_cases())
-    assert len({len(column) for column in table.values()}) == 1
-    for heading, column in table.items():
-        values = [value for value in column if value != ""]
-        if not isinstance(values[0], str):
-            assert re.search(r"\(.+\)$", heading), heading
-            assert np.all(np.isfinite(np.asarray(values, float)))
-
-
 def test_the_bars_end_at_the_torque():
     with charts.house_style():
-        figure = PLOTS["effects_steps"].draw(effect_figures.drawn_cases())
-    table = PLOTS["effects_steps"].table(effect_figures.drawn_cases())
-    for panel, case in zip(figure.axes, effect_figures.drawn_cases().values(), strict=True):
+        figure = PLOTS["effects_steps"](CASES)
+    for panel, case in zip(figure.axes, CASES.values(), strict=True):
         ends = [bar.get_x() + bar.get_width() for bar in panel.containers[-1]]
-        assert ends == pytest.approx(table[f"friction torque, {case.title} (N m)"])
+        assert ends == pytest.approx([effect.torque for effect in effects(case)])
 
 
 def test_skid_is_shaded():
     with charts.house_style():
-        figure = PLOTS["effects_light_load"].draw(effect_figures.drawn_cases())
+        figure = PLOTS["effects_light_load"](CASES)
     for panel in figure.axes:
         assert "the ball skids" in panel.get_legend_handles_labels()[1]
 
 
 def test_the_slip_fields_fill_their_ellipses():
     with charts.house_style():
-        figure = PLOTS["effects_slip_fields"].draw(effect_figures.drawn_cases())
+        figure = PLOTS["effects_slip_fields"](CASES)
     panels = [panel for panel in figure.axes if panel.images]
     assert len(panels) == 4
     for panel in panels:
@@ -123,7 +112,7 @@ def test_the_slip_fields_fill_their_ellipses():
 def test_two_runs_give_the_same_bytes(tmp_path):
     for name in ("one", "two"):
         with charts.house_style():
-            charts.save(PLOTS["effects_slip_fields"].draw(effect_figures.drawn_cases()), tmp_path, name)
+            charts.save(PLOTS["effects_slip_fields"](CASES), tmp_path, name)
     for kind in ("svg", "png"):
         assert (tmp_path / f"one.{kind}").read_bytes() == (tmp_path / f"two.{kind}").read_bytes()
 
@@ -152,7 +141,7 @@ def test_all_the_page_shows_is_written(page, tmp_path, monkeypatch):
 def test_the_numbers_of_the_pages_are_those_that_are_made(page, monkeypatch):
     """All on a page are known, and all known ones stand on a page: none is computed for nothing."""
     monkeypatch.syspath_prepend(str(ROOT / "docs"))
-    others = [importlib.import_module(name) for name in ("validation_tables", "theory_numbers")]
+    others = [importlib.import_module(name) for name in ("validation_tables", "theory_numbers", "errata_page")]
     made = {name for each in (page, *others) for name in each.numbers()}
     texts = [path.read_text(encoding="utf-8") for path in (ROOT / "docs").rglob("*.md")]
     shown = {name for text in texts for name in re.findall(r"<!--= (\w+)-->", text)}

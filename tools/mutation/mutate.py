@@ -17,7 +17,6 @@ import os
 import queue
 import random
 import shutil
-import subprocess
 import sys
 import time
 import tomllib
@@ -26,13 +25,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-import coverage
+import reach
 from changes import Change, changes_of
+from reach import HERE, ROOT, SOURCE
 from warm_process import run_pytest
 
-HERE = Path(__file__).parent
-ROOT = HERE.parents[1]
-SOURCE = ROOT / "src" / "ballscrew"
 WORK = ROOT / "out" / "mutation"
 #: Files without results: what is read, drawn, or only described.
 NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py", "response.py", "options.py", "answer.py")
@@ -262,6 +259,7 @@ def reached_in(room: str) -> Reached:
     tests = [*paths, ROOT / "tests" / "support", *sorted((ROOT / "tests").rglob("conftest.py"))]
     for file in (
         HERE / "contexts.py",
+        HERE / "reach.py",
         HERE / "sitecustomize.py",
         *files_of(room),
         *(one for path in tests for one in sorted(path.rglob("*.py") if path.is_dir() else [path])),
@@ -278,39 +276,21 @@ def reached_in(room: str) -> Reached:
 def measured(room: str, paths: Sequence[Path]) -> dict[str, object]:
     """Run the tests of a room, and note the lines that each of them reaches."""
     print(f"{room}: which test reaches which line", file=sys.stderr, flush=True)
-    data, seconds, commands = (WORK / f"{room}.{name}" for name in ("coverage", "seconds", "commands"))
-    shutil.rmtree(commands, ignore_errors=True)
-    commands.mkdir()
     include = ",".join(str(SOURCE / folder / "*") for folder in ROOMS[room].source)
-    environment = {
-        **os.environ, "COVERAGE_FILE": str(data), "SECONDS_OF_TESTS": str(seconds), "PYTHONPATH": str(HERE),
-        "LINES_OF_COMMANDS": str(commands), "LINES_OF": include,
-    }  # fmt: skip
-    if room == "page":  # the browser counts them
-        environment["SCRIPTS_REACHED"], include = str(WORK / "scripts.json"), str(HERE)
-    measure = ["-m", "coverage", "run", f"--rcfile={os.devnull}", f"--include={include}"]
-    ended = subprocess.run(
-        [sys.executable, *measure, "-m", "pytest", *PYTEST, "-p", "contexts", "--tb=short", *map(str, paths)], cwd=ROOT,
-        env=environment, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    if ended.returncode:
-        raise SystemExit(f"The tests of {room} fail without any change:\n{ended.stdout[-3000:]}{ended.stderr[-2000:]}")
-    tests: dict[str, dict[int, list[str]]] = defaultdict(dict)
+    folder, scripts = WORK / f"{room}.reach", WORK / "scripts.json"
+    counted = {"SCRIPTS_REACHED": str(scripts)} if room == "page" else {}  # the browser counts those of the page
+    arguments = [*PYTEST, "--tb=short", *map(str, paths)]
+    if reach.started(folder, str(HERE) if room == "page" else include, arguments, **counted).wait():
+        said = (folder / "pytest.txt").read_text(encoding="utf-8")[-5000:]
+        raise SystemExit(f"The tests of {room} fail without any change:\n{said}")
     if room == "page":
-        tests.update(json.loads((WORK / "scripts.json").read_text(encoding="utf-8")))
-        return {"tests": tests, **json.loads(seconds.read_text(encoding="utf-8"))}
-    found = coverage.CoverageData(str(data))
-    found.read()
-    for file in found.measured_files():
-        name = Path(file).relative_to(SOURCE).as_posix()
-        for line, contexts in found.contexts_by_lineno(file).items():
-            tests[name][line] = sorted(filter(None, contexts))
-    for one in map(json.loads, (file.read_text(encoding="utf-8") for file in commands.iterdir())):
-        for file, lines in one["lines"].items():
-            known = tests[Path(file).relative_to(SOURCE).as_posix()]
-            for line in lines:
-                known[line] = sorted({*known.get(line, ()), one["context"]} - {""})
-    return {"tests": tests, **json.loads(seconds.read_text(encoding="utf-8"))}
+        return {"tests": json.loads(scripts.read_text(encoding="utf-8")), **reach.seconds(folder)}
+    tests: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
+    for name, context, lines in reach.executed(folder):
+        for line in lines:
+            tests[name][line].add(context)
+    by_line = {name: {line: sorted(found) for line, found in each.items()} for name, each in tests.items()}
+    return {"tests": by_line, **reach.seconds(folder)}
 
 
 def equivalents() -> dict[str, str]:

@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import argparse
 import ast
+import functools
 import gzip
 import json
 import os
 import shutil
-import sqlite3
 import subprocess
 import sys
 import time
@@ -26,11 +26,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from coverage.numbits import numbits_to_nums
+import reach
+from reach import ROOT, SOURCE
 
-HERE = Path(__file__).parent
-ROOT = HERE.parents[1]
-SOURCE = ROOT / "src" / "ballscrew"
 WORK = ROOT / "out" / "quick"
 MAP = WORK / "map.json.gz"
 #: Code that runs when its module is imported.
@@ -125,37 +123,37 @@ def changed_functions(lines: Mapping[str, set[int]]) -> set[str]:
 # -- which tests ------------------------------------------------------------------------------------
 
 
-def chosen(reach: Reach, changed: Iterable[str], tests: Sequence[str], budget: float) -> Choice:
+def chosen(known: Reach, changed: Iterable[str], tests: Sequence[str], budget: float) -> Choice:
     """Tests within a budget of seconds: changed ones, those named after what changed, then those that run least else.
 
     Of each file in turn.
     """
     of_module = defaultdict(set)
-    runs = [0] * len(reach.tests)
-    for function, indices in reach.functions.items():
+    runs = [0] * len(known.tests)
+    for function, indices in known.functions.items():
         of_module[function.partition(":")[0]].update(indices)
         for index in indices:
             runs[index] += 1
     candidates: set[int] = set()
     for function in changed:
         path, _, name = function.partition(":")
-        candidates.update(of_module[path] if name == MODULE else reach.functions.get(function, of_module[path]))
+        candidates.update(of_module[path] if name == MODULE else known.functions.get(function, of_module[path]))
     # the files of changed tests are run whole
-    candidates -= {index for index in candidates if reach.tests[index].partition("::")[0] in tests}
+    candidates -= {index for index in candidates if known.tests[index].partition("::")[0] in tests}
     by_file: dict[str, list[int]] = defaultdict(list)
-    for index in sorted(candidates, key=lambda index: (runs[index], reach.seconds[index])):
-        by_file[reach.tests[index].partition("::")[0]].append(index)
-    seconds = sum(s for test, s in zip(reach.tests, reach.seconds, strict=True) if test.partition("::")[0] in tests)
+    for index in sorted(candidates, key=lambda index: (runs[index], known.seconds[index])):
+        by_file[known.tests[index].partition("::")[0]].append(index)
+    seconds = sum(s for test, s in zip(known.tests, known.seconds, strict=True) if test.partition("::")[0] in tests)
     ids: list[int] = []
     named = [by_file[file] for file in by_file if is_named_after(file, changed)]
     for share, lists in ((OF_NAMED, named), (1.0, list(by_file.values()))):
         for index in in_turn(lists):
-            if index not in ids and seconds + reach.seconds[index] <= share * budget:
-                seconds += reach.seconds[index]
+            if index not in ids and seconds + known.seconds[index] <= share * budget:
+                seconds += known.seconds[index]
                 ids.append(index)
     left = candidates.difference(ids)
     return Choice(
-        [*tests, *(reach.tests[index] for index in ids)], seconds, len(left), sum(reach.seconds[i] for i in left)
+        [*tests, *(known.tests[index] for index in ids)], seconds, len(left), sum(known.seconds[i] for i in left)
     )
 
 
@@ -186,8 +184,7 @@ def run(since: str, budget: float, list_only: bool) -> int:
     tests = [file for file in lines if file.startswith("tests/") and Path(file).name.startswith("test_")]
     tests = [file for file in tests if (ROOT / file).is_file()]
     changed = changed_functions(lines)
-    reach = read_map()
-    choice = chosen(reach, changed, tests, budget * WORKERS)
+    choice = chosen(read_map(), changed, tests, budget * WORKERS)
     print(f"{len(changed)} functions have changed since {since}, {len(tests)} files of tests")
     print(f"{len(choice.tests)} chosen, {choice.seconds:.0f} s of processor; {choice.left} left out, "
           f"{choice.seconds_left:.0f} s", flush=True)  # fmt: skip
@@ -213,32 +210,19 @@ def measure(folders: Sequence[str], processes: int) -> None:
     files = sorted(file.relative_to(ROOT).as_posix() for file in (ROOT / "tests").rglob("test_*.py"))
     files = [file for file in files if file.startswith(tuple(folders)) and not file.startswith(UNMEASURED)]
     started = time.monotonic()
-    shards = [measured(WORK / f"shard{number}", files[number::processes]) for number in range(processes)]
+    options = ("-n0", *PYTEST, "--tb=line")
+    shards = [
+        reach.started(WORK / f"shard{number}", f"{SOURCE}/*", [*options, *files[number::processes]], EACH_PARAMETER="1")
+        for number in range(processes)
+    ]
     for process in shards:
         if process.wait() > 1:  # a test that fails is no reason to have no map
             raise SystemExit("The tests could not be run: see out/quick/shard*/pytest.txt")
-    reach = joined([WORK / f"shard{number}" for number in range(processes)])
+    found = joined([WORK / f"shard{number}" for number in range(processes)])
     with gzip.open(MAP, "wt", encoding="utf-8") as file:
-        json.dump(reach._asdict(), file)
+        json.dump(found._asdict(), file)
     minutes = (time.monotonic() - started) / 60
-    print(f"{len(reach.tests)} tests run {len(reach.functions)} functions; measured in {minutes:.0f} min")
-
-
-def measured(folder: Path, files: Sequence[str]) -> subprocess.Popen[bytes]:
-    """A process of pytest that notes in a folder what each test runs."""
-    commands = folder / "commands"
-    commands.mkdir(parents=True)
-    include = f"{SOURCE}/*"
-    environment = {
-        **os.environ, "COVERAGE_FILE": str(folder / "coverage"), "SECONDS_OF_TESTS": str(folder / "seconds.json"),
-        "PYTHONPATH": str(HERE), "LINES_OF_COMMANDS": str(commands), "LINES_OF": include, "EACH_PARAMETER": "1",
-    }  # fmt: skip
-    coverage = [sys.executable, "-m", "coverage", "run", f"--rcfile={os.devnull}", f"--include={include}"]
-    with (folder / "pytest.txt").open("wb") as output:
-        return subprocess.Popen(
-            [*coverage, "-m", "pytest", "-n0", *PYTEST, "-p", "contexts", "--tb=line", *files],
-            cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+    print(f"{len(found.tests)} tests run {len(found.functions)} functions; measured in {minutes:.0f} min")
 
 
 def joined(folders: Iterable[Path]) -> Reach:
@@ -246,13 +230,12 @@ def joined(folders: Iterable[Path]) -> Reach:
     seconds: dict[str, float] = {}
     functions: dict[str, set[str]] = defaultdict(set)
     for folder in folders:
-        noted = json.loads((folder / "seconds.json").read_text(encoding="utf-8"))
+        noted = reach.seconds(folder)
         shared = noted["shared"]
         seconds |= {test: s for test, s in noted["seconds"].items() if test not in shared}
-        for file, context, lines in executed(folder):
-            names = names_in(file)
+        for path, context, lines in reach.executed(folder):
+            names = names_in(path)
             tests = shared.get(context, (context,))
-            path = Path(file).relative_to(SOURCE).as_posix()
             for name in {names[line] for line in lines if line < len(names)}:
                 functions[f"{path}:{name}"].update(tests)
     tests = sorted(seconds)
@@ -261,27 +244,10 @@ def joined(folders: Iterable[Path]) -> Reach:
     return Reach(tests, [round(seconds[test], 4) for test in tests], by_function)
 
 
-def executed(folder: Path) -> Iterator[tuple[str, str, Iterable[int]]]:
-    """Files, what was run there for (a test or a shared fixture), and lines."""
-    database = sqlite3.connect(folder / "coverage")
-    query = ("select path, context, numbits from line_bits join file on file.id = file_id "
-             "join context on context.id = context_id where context != ''")  # fmt: skip
-    for path, context, bits in database.execute(query):
-        yield path, context, numbits_to_nums(bits)
-    for file in (folder / "commands").iterdir():
-        noted = json.loads(file.read_text(encoding="utf-8"))
-        if noted["context"]:
-            yield from ((path, noted["context"], lines) for path, lines in noted["lines"].items())
-
-
-_NAMES: dict[str, list[str]] = {}
-
-
-def names_in(file: str) -> list[str]:
-    """The functions by line of a file, read once."""
-    if file not in _NAMES:
-        _NAMES[file] = functions_of(Path(file).read_text(encoding="utf-8"))
-    return _NAMES[file]
+@functools.cache
+def names_in(path: str) -> list[str]:
+    """The functions by line of a file below ``src/ballscrew``, read once."""
+    return functions_of((SOURCE / path).read_text(encoding="utf-8"))
 
 
 def main() -> None:

@@ -17,13 +17,6 @@ def figures_of(name, *options):
     return json.loads(outcome.stdout)
 
 
-@pytest.mark.slow
-def test_the_sides_of_the_sweep_agree():
-    figures = figures_of("sweep.py", "--points", "20000", "--no-cold")
-    assert figures["agreement"] < 1e-10
-    assert figures["points"] == 20_000
-
-
 @pytest.mark.long
 @pytest.mark.compiles
 def test_the_sides_of_the_engine_agree():
@@ -31,18 +24,6 @@ def test_the_sides_of_the_engine_agree():
     for name in ("A", "B", "cartesian", "reference"):
         (by_points,) = figures[name]["by_points"].values()
         assert by_points["agreement"] < 1e-12, name
-
-
-@pytest.mark.long
-def test_benchmark():
-    """The ratio asked for is 3, on a quiet machine; here the other tests are running.
-
-    It needs the million points: fewer leave little for a second thread to do.
-    """
-    figures = figures_of("sweep.py", "--points", "1000000", "--no-cold")
-    assert figures["agreement"] < 1e-10
-    assert figures["ratio"] > 1.5
-    assert figures["points"] == 1_000_000
 
 
 @pytest.mark.long
@@ -54,6 +35,8 @@ def test_engine():
     """
     figures = figures_of("engine.py", "--points", "1000000")
     assert figures["A"]["vs_numpy"] > 6
+    (a,) = figures["A"]["by_points"].values()
+    assert a["vs_numpy"] > 1.5 * a["vs_numpy_engine"]  # of NumPy alone on a quiet machine 3, and it has two threads
     assert figures["B"]["vs_numpy"] > 3
     assert figures["cartesian"]["vs_numpy"] > 8
     assert figures["reference"]["vs_numpy"] > 4
@@ -66,6 +49,6 @@ def test_engine():
 @pytest.mark.long
 @pytest.mark.compiles
 def test_the_transient_with_the_map_is_that_with_the_model():
-    figures = figures_of("warm_up.py", "--many", "2", "--rounds", "1")
+    figures = figures_of("warm_up.py", "--rounds", "1")
     assert figures["difference"] < 1e-3
     assert figures["plain_over_ours"] > 1

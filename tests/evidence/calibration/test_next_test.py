@@ -1,10 +1,6 @@
 """The test that teaches most: its formula, its limits, and that it does teach more than random ones."""
 
 import dataclasses
-import json
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,7 +14,6 @@ from support.synthetic_logs import OIL, RPM, log, truth
 
 PAPER = bs.FrictionModel.olaru2005()
 FRICTION, SEALS = "boundary_friction_coefficient", "constant_torque"
-BENCHMARK = Path(__file__).parents[3] / "benchmarks" / "next_test.py"
 
 
 @pytest.fixture(scope="module")
@@ -157,15 +152,35 @@ def test_the_same_every_time(both):
 
 @pytest.mark.slow
 def test_it_teaches_more_than_random_tests_when_it_is_run():
-    """One scenario of the benchmark, with ten random tests for fifty: run on the truth, and fitted again."""
-    scenario = "friction and seals, high loads only"
-    options = ["--json", "--seeds", "1", "--random", "10", "--scenario", scenario]
-    outcome = subprocess.run(
-        [sys.executable, str(BENCHMARK), *options], capture_output=True, text=True, check=False
-    )  # fmt: skip
-    assert outcome.returncode == 0, outcome.stderr
-    (run,) = json.loads(outcome.stdout)[scenario]
-    assert run["better"]
-    assert run["left"] < 0.6 * run["median"]
+    """Friction and seals of a log with high loads only: run on the truth ten minutes later, and fitted again."""
+    random, true = np.random.default_rng(0), truth(bs.FrictionModel.corrected())
+    limits = {"axial_load": (100.0, 8000.0), "screw_speed": (5 * RPM, 3000 * RPM)}
+
+    def read(load, speed, sign, time):
+        torque = sign * (true(SCREW, OIL, axial_load=load, screw_speed=speed).screw_torque + 0.05)
+        torque = torque + 0.02 * time / 3600 + random.normal(0, 0.01, time.size)
+        return {"axial_load": load, "screw_speed": sign * speed, "time": time, "torque": torque}
+
+    def fitted(columns):
+        free, model = [FRICTION, SEALS], bs.FrictionModel.corrected()
+        return fit(model, SCREW, OIL, columns, free, kind="friction", holdout=0.0, temperature_error=0.0)
+
+    def volume(found):
+        return np.sqrt(np.linalg.det(found.uncertainty.covariance[:2, :2]))
+
+    speeds = np.exp(random.uniform(*np.log((10, 1000)), 300)) * RPM
+    rows = read(random.uniform(2000, 4000, 300), speeds, random.choice([-1.0, 1.0], 300), np.linspace(0, 3600, 300))
+    found = fitted(rows)
+
+    def left(load, speed):
+        sign = np.repeat([1.0, -1.0], 10)
+        more = read(np.full(20, load), np.full(20, speed), sign, np.linspace(4200, 4260, 20))
+        return volume(fitted({name: np.concatenate([rows[name], more[name]]) for name in rows})) / volume(found)
+
+    proposal = found.next_test(limits, 20)
+    low, high = np.log(np.array(list(limits.values())).T)
+    by_chance = np.median([left(*np.exp(random.uniform(low, high))) for _ in range(10)])
+    proposed = left(proposal.best["axial_load"], proposal.best["screw_speed"])
+    assert proposed < 0.6 * by_chance
     # readings that come later than the log also have its drift
-    assert run["promised"] < run["left"] < 1.5 * run["promised"]
+    assert proposal.best_volume < proposed < 1.5 * proposal.best_volume

@@ -1,7 +1,7 @@
 """Numbers that no screw has: a verdict on each, before all else, and none on fits that are right."""
 
 import dataclasses
-import importlib.util
+import importlib
 import math
 from pathlib import Path
 
@@ -19,16 +19,15 @@ from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, log, truth
 
 PAPER = bs.FrictionModel.olaru2005()
-BENCHMARK = Path(__file__).parents[3] / "benchmarks" / "implausible_fits.py"
+BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 FRICTION, CONSTANT, PRELOAD = "boundary_friction_coefficient", "constant_torque", "nut.preload"
 
 
 @pytest.fixture(scope="module")
 def logs():
-    spec = importlib.util.spec_from_file_location("implausible_fits", BENCHMARK)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.LOGS
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(BENCHMARKS)
+        return importlib.import_module("implausible_fits").LOGS
 
 
 @pytest.mark.slow

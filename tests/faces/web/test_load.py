@@ -1,7 +1,7 @@
 """The server under load, for a short while; ``benchmarks/serve.py`` does it for minutes."""
 
 import concurrent.futures
-import importlib.util
+import importlib
 import io
 import itertools
 import sys
@@ -17,15 +17,14 @@ from ballscrew.questions.shared.report_blocks import Report
 
 pytestmark = pytest.mark.slow
 
-SCRIPT = Path(__file__).parents[3] / "benchmarks" / "serve.py"
+BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 
 
 @pytest.fixture(scope="module")
 def serve():
-    spec = importlib.util.spec_from_file_location("serve", SCRIPT)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(BENCHMARKS)
+        return importlib.import_module("serve")
 
 
 def test_fifty_users_at_once(server, serve):

@@ -28,8 +28,7 @@ from ballscrew.engine.sweeps.store_plan import Blocks
 
 #: LZ4 with the bytes of equal weight side by side: a map of seven outputs takes 0.72 of its bytes, and
 #: a disk slower than a processor compresses has the less to do. Zstandard saves 0.02 more at most and
-#: takes up to twice as long; on numbers as they are it saves half as much
-#: (``benchmarks/out_of_core.py --codecs``).
+#: takes up to twice as long; on numbers as they are it saves half as much.
 COMPRESSION: Mapping[str, Any] = {"cname": "lz4", "clevel": 1, "shuffle": "shuffle"}
 
 

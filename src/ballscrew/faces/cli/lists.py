@@ -101,7 +101,8 @@ def list_oils(
 ) -> None:
     """All oils, one line each."""
     from ballscrew.cases.case_files import lubricants
-    from ballscrew.questions.oils import document, list_text
+    from ballscrew.questions import oils as document
+    from ballscrew.questions.oils import list_text
 
     sheets = lubricants.chosen(lubricants.oils(file), " ".join(words or []))
     print_answer(lambda: list_text(sheets), lambda: document(sheets), as_json=as_json)
@@ -118,7 +119,8 @@ def show_oil(
     The viscosities are from -40 to 120 degC.
     """
     from ballscrew.cases.case_files import lubricants
-    from ballscrew.questions.oils import document, show_text
+    from ballscrew.questions import oils as document
+    from ballscrew.questions.oils import show_text
 
     sheet = lubricants.oils(file).named(name)
     print_answer(lambda: show_text(sheet), lambda: document([sheet]), as_json=as_json)
