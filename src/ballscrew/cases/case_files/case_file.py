@@ -38,7 +38,7 @@ from ballscrew.cases.schema.case_schema import (
 from ballscrew.cases.schema.duty_schema import DUTY_TABLES, SUPPORT_TABLES
 from ballscrew.cases.schema.fields import NutSpeed, is_nut_speed
 from ballscrew.cases.schema.law_import import in_options
-from ballscrew.cases.schema.sections import Sections, validated_sections
+from ballscrew.cases.schema.reader import Reader
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES
 from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.operating_state import OperatingState
@@ -146,34 +146,33 @@ def build(
     ``moves`` needs an axis and a motion and no operating point: without one it has that of steady travel.
     """
     tables, chosen = with_calibration(tables, calibration), () if calibration is None else ("model.calibration",)
-    faults = _unknown_sections(tables)
-    sections = validated_sections(tables)
-    efficiency = duty_tables.efficiency(sections, model, moves, faults)
-    faults += _missing_sections(tables, duty_tables.needed(_NEEDED, moves, efficiency))
-    made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
-    if (known := of_make(tables, made.row, faults)) is not tables:
-        tables, sections = known, validated_sections(known)
-    lubricant, oil = lubricant_of(sections, folder, faults) if "lubricant" in sections else (None, {})
-    moved = duty_tables.moved(sections, folder, faults)
-    moved = moved._replace(axis=support_tables.guided(sections, moved.axis, folder, lubricant, faults))
+    reader = Reader(tables, folder, rows, _unknown_sections(tables))
+    efficiency = duty_tables.efficiency(reader, model, moves)
+    reader.faults += _missing_sections(tables, duty_tables.needed(_NEEDED, moves, efficiency))
+    made = _screw(reader) if "screw" in reader else _NO_SCREW
+    if (known := of_make(reader, tables, made.row)) is not tables:
+        tables, reader = known, dataclasses.replace(reader, tables=known)
+    lubricant, oil = lubricant_of(reader) if "lubricant" in reader else (None, {})
+    moved = duty_tables.moved(reader)
+    moved = moved._replace(axis=support_tables.guided(reader, moved.axis, lubricant))
     if efficiency is None:
-        friction_model = _model(sections, model, faults, folder if allow_code else None)
+        friction_model = _model(reader, model, folder if allow_code else None)
     else:  # no model counts, and no oil of the screw: any stands in
         friction_model = MODELS[DEFAULT_MODEL]
-    sweep, fit = _sweep(tables.get("sweep", {}), faults), _fit(tables.get("calibration", {}), faults)
-    estimated = _estimated(tables, faults)
-    nut, notes = nut_tables.nut_of(sections, *made, faults)
-    mounted, bearings = _mounting(sections, folder, lubricant, faults)
-    limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
+    sweep, fit = _sweep(reader, tables.get("sweep", {})), _fit(reader, tables.get("calibration", {}))
+    estimated = _estimated(reader, tables)
+    nut, notes = nut_tables.nut_of(reader, *made)
+    mounted, bearings = _mounting(reader, lubricant)
+    limits = nut_tables.limits(reader) if "limits" in reader else USUAL_LIMITS
     screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
-    travels = moves and "operation" not in sections
-    operation = _travel(moved, screw) if travels else _operation(sections, screw, faults)
+    travels = moves and "operation" not in reader
+    operation = _travel(moved, screw) if travels else _operation(reader, screw)
     root = None if screw is None else nut_tables.root_diameter(screw, made.listed)
-    faults += [*duty_tables.misfits(moved, mounted, root), *nut_tables.faults_of_root(screw, made.listed)]
+    reader.faults += [*duty_tables.misfits(moved, mounted, root), *nut_tables.faults_of_root(screw, made.listed)]
     if efficiency is not None and lubricant is None:
         lubricant = Lubricant.from_grade("ISO VG 100")
-    if faults or screw is None or lubricant is None or operation is None or friction_model is None:
-        raise InputError(*in_options(faults, chosen))
+    if reader.faults or screw is None or lubricant is None or operation is None or friction_model is None:
+        raise InputError(*in_options(reader.faults, chosen))
     inputs, exact = uncertain_inputs.parse_distributions(tables, friction_model, screw, lubricant)
     of_air, exact_air = written_bands(tables.get("surroundings", {}))
     calibrated_by = tables.get("model", {}).get("calibration")
@@ -204,7 +203,7 @@ def build(
         doubtful_numbers=doubtful(tables, _rating(screw, made)),
         speed_of_nut=is_nut_speed(tables.get("operation", {}).get("screw_speed")),
         bearings=bearings,
-        uncertain_supports=support_tables.distributions(sections),
+        uncertain_supports=support_tables.distributions(reader),
         estimated=estimated,
     )
 
@@ -265,14 +264,12 @@ class _MadeScrew(NamedTuple):
 _NO_SCREW = _MadeScrew(None, None, {})
 
 
-def _screw(
-    sections: Sections, folder: Path, rows: Mapping[str, CatalogueRow] | None, faults: list[Fault]
-) -> _MadeScrew:
+def _screw(reader: Reader) -> _MadeScrew:
     """The screw of a table, or of a catalogue row with what the table changes."""
-    before = len(faults)
-    table, values = sections.tables["screw"], sections.values_of("screw", faults)
-    row = nut_tables.row_of(table, folder, rows, faults) if isinstance(table, dict) else None
-    if len(faults) > before:
+    part = reader.part()
+    table, values = reader.tables["screw"], reader.values_of("screw")
+    row = nut_tables.row_of(reader, table) if isinstance(table, dict) else None
+    if part.is_faulty:
         return _NO_SCREW
     given = {name: value for name, value in values.items() if name not in ("catalogue", "catalogue_file")}
     of_row = {} if row is None else {name: getattr(row, name) for name in LISTED}
@@ -287,28 +284,28 @@ def _screw(
         for fault in error.faults:
             quantity = known.get(fault.where.rpartition(".")[2])
             if quantity is None:  # of the nut, whatever its numbers
-                faults.append(dataclasses.replace(fault, where="screw.catalogue", given=row.name if row else ""))
+                reader.faults.append(dataclasses.replace(fault, where="screw.catalogue", given=row.name if row else ""))
                 continue
             written = table.get(quantity.name)
             if written is None and row is not None:
                 written = units.shown(getattr(row, quantity.name), quantity)
-            faults.append(in_display_units(fault, quantity, str(written)))
+            reader.faults.append(in_display_units(fault, quantity, str(written)))
         return _NO_SCREW
     return _MadeScrew(screw, row, {name: value for name, value in listed.items() if value is not None})
 
 
-def _operation(sections: Sections, screw: BallScrew | None, faults: list[Fault]) -> OperatingState | None:
+def _operation(reader: Reader, screw: BallScrew | None) -> OperatingState | None:
     """The load and the speed; a speed of the nut turns the screw by its lead. None without such a section."""
-    if "operation" not in sections:
+    if "operation" not in reader:
         return None
-    before = len(faults)
-    values = sections.values_of("operation", faults)
+    part = reader.part()
+    values = reader.values_of("operation")
     speed = values.get("screw_speed")
     if isinstance(speed, NutSpeed):
         if screw is None:
             return None  # its own faults are there already
         values["screw_speed"] = 2 * math.pi * speed / screw.lead
-    return OperatingState(**values) if len(faults) == before else None
+    return OperatingState(**values) if not part.is_faulty else None
 
 
 def _travel(moved: duty_tables.Moved, screw: BallScrew | None) -> OperatingState | None:
@@ -318,25 +315,23 @@ def _travel(moved: duty_tables.Moved, screw: BallScrew | None) -> OperatingState
     return duty_tables.travel(moved.axis, moved.motion, screw.lead)
 
 
-def _mounting(
-    sections: Sections, folder: Path, lubricant: Lubricant | None, faults: list[Fault]
-) -> tuple[Installation | None, Mapping[str, MountedBearing]]:
+def _mounting(reader: Reader, lubricant: Lubricant | None) -> tuple[Installation | None, Mapping[str, MountedBearing]]:
     """The installation of the screw, and the bearings of its shaft by their place."""
-    mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
-    bearings = support_tables.bearings(sections, folder, lubricant, mounted, faults)
+    mounted = nut_tables.installation(reader) if "installation" in reader else None
+    bearings = support_tables.bearings(reader, lubricant, mounted)
     return support_tables.mounted_on(mounted, bearings), bearings
 
 
-def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Path | None) -> FrictionModel | None:
+def _model(reader: Reader, chosen: str | None, code: Path | None) -> FrictionModel | None:
     """A preset with the fields of the table put in; ``chosen`` on the command line wins over its name."""
-    before = len(faults)
-    table, values = sections.tables.get("model", {}), sections.values_of("model", faults)
+    part = reader.part()
+    table, values = reader.tables.get("model", {}), reader.values_of("model")
     named = table.get("name", DEFAULT_MODEL) if isinstance(table, dict) else DEFAULT_MODEL
     name = named if chosen is None else chosen
     if isinstance(name, str) and name not in MODELS:
-        faults.append(Fault("model.name", "unknown model", name, nearest(name, MODELS)))
+        reader.refuse("model.name", "unknown model", name, nearest(name, MODELS))
     preset = MODELS.get(name) if isinstance(name, str) else None
-    changes = _laws(table, preset or MODELS[DEFAULT_MODEL], faults, code) if isinstance(table, dict) else {}
+    changes = _laws(reader, table, preset or MODELS[DEFAULT_MODEL], code) if isinstance(table, dict) else {}
     # a model that only the command line chose may leave aside what the case says for its own
     preset_force = preset.ball_force if preset is not None and name == named else None
     force = changes.get("ball_force", preset_force)
@@ -344,22 +339,22 @@ def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Pa
         problem = f'does not count with ball_force = "{name_of_law("ball_force", force)}"'
         names = " and ".join(f"ball_force.{name}" for name in coefficients(force))
         remedy = f'leave it out{f" and set {names}" if names else ""}, or write ball_force = "imposed"'
-        faults.append(Fault("model.ball_to_ball_force", problem, str(table["ball_to_ball_force"]), remedy))
-    if len(faults) > before or preset is None:
+        reader.refuse("model.ball_to_ball_force", problem, str(table["ball_to_ball_force"]), remedy)
+    if part.is_faulty or preset is None:
         return None
     numbers = {field: value for field, value in values.items() if field in fields_of(FrictionModel)}
     try:
         model = changed(preset, {**changes, **numbers})
         return calibrated_by_table(model, table) if "calibration" in table else model
     except InputError as error:
-        faults += error.faults
+        reader.faults += error.faults
         return None
 
 
-def _laws(table: Mapping[str, Any], preset: FrictionModel, faults: list[Fault], code: Path | None) -> dict[str, Any]:
+def _laws(reader: Reader, table: Mapping[str, Any], preset: FrictionModel, code: Path | None) -> dict[str, Any]:
     """The laws that a table puts into slots."""
     return {
-        slot: law_of(slot, written, getattr(preset, slot), faults, code)
+        slot: law_of(slot, written, getattr(preset, slot), reader.faults, code)
         for slot, written in table.items()
         if slot in LAWS
     }
@@ -372,20 +367,22 @@ def changed(model: FrictionModel, changes: Mapping[str, Any]) -> FrictionModel:
     return dataclasses.replace(model, **changes)
 
 
-def _sweep(table: Any, faults: list[Fault]) -> Mapping[str, str]:
+def _sweep(reader: Reader, table: Any) -> Mapping[str, str]:
     if not isinstance(table, dict):
-        faults.append(Fault("sweep", "must be a table", str(table), "write [sweep]"))
+        reader.refuse("sweep", "must be a table", str(table), "write [sweep]")
         return {}
     remedy = 'write "100:4000:14 N" or "100, 200, 500 N"'
-    faults += [Fault(f"sweep.{n}", "must be text", str(v), remedy) for n, v in table.items() if not isinstance(v, str)]
+    reader.faults += [
+        Fault(f"sweep.{n}", "must be text", str(v), remedy) for n, v in table.items() if not isinstance(v, str)
+    ]
     return table
 
 
-def _estimated(tables: Mapping[str, Any], faults: list[Fault]) -> frozenset[str]:
+def _estimated(reader: Reader, tables: Mapping[str, Any]) -> frozenset[str]:
     """The places of values that the case still has as its table of estimates has them; others were changed since."""
     estimates = tables.get(ESTIMATES, {})
     if not isinstance(estimates, dict) or not all(isinstance(values, dict) for values in estimates.values()):
-        faults.append(Fault(ESTIMATES, "must be a table of sections", str(estimates), _WRITE_ESTIMATES))
+        reader.refuse(ESTIMATES, "must be a table of sections", str(estimates), _WRITE_ESTIMATES)
         return frozenset()
     return frozenset(
         f"{section}.{name}"
@@ -396,13 +393,13 @@ def _estimated(tables: Mapping[str, Any], faults: list[Fault]) -> frozenset[str]
     )
 
 
-def _fit(table: Any, faults: list[Fault]) -> dict[str, Any]:
+def _fit(reader: Reader, table: Any) -> dict[str, Any]:
     """The table [calibration], as a fit wrote it."""
     if not isinstance(table, dict):
-        faults.append(Fault("calibration", "must be a table", str(table), "leave it as ballscrew fit wrote it"))
+        reader.refuse("calibration", "must be a table", str(table), "leave it as ballscrew fit wrote it")
         return {}
     if "constant_torque" in table:
         remedy = 'fit again, or move it: [losses] constant = {law = "known", constant_torque = "…"}'
         problem = "is of an earlier version, in which it was left out of the torque"
-        faults.append(Fault("calibration.constant_torque", problem, str(table["constant_torque"]), remedy))
+        reader.refuse("calibration.constant_torque", problem, str(table["constant_torque"]), remedy)
     return table

@@ -7,7 +7,6 @@ import functools
 import math
 import reprlib
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,7 +31,7 @@ from ballscrew.cases.schema.duty_schema import (
     duty_sections,
     fields_of_motion,
 )
-from ballscrew.cases.schema.sections import Sections
+from ballscrew.cases.schema.reader import Reader
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.sizing.installation import Installation
 
@@ -51,13 +50,13 @@ class Moved(NamedTuple):
     surroundings: Surroundings | None = None
 
 
-def moved(sections: Sections, folder: Path, faults: list[Fault]) -> Moved:
+def moved(reader: Reader) -> Moved:
     """Axis, motion, motor and surroundings, of which a case may have none."""
     return Moved(
-        _axis(sections, faults) if "axis" in sections else None,
-        _motion(sections, folder, faults) if "motion" in sections else None,
-        _motor(sections, faults) if "motor" in sections else None,
-        _surroundings(sections, faults) if "surroundings" in sections else None,
+        _axis(reader) if "axis" in reader else None,
+        _motion(reader) if "motion" in reader else None,
+        _motor(reader) if "motor" in reader else None,
+        _surroundings(reader) if "surroundings" in reader else None,
     )
 
 
@@ -109,72 +108,72 @@ def travel(axis: Axis, motion: Motion, lead: float) -> OperatingState:
     return OperatingState(axial_load=load, screw_speed=2 * math.pi * fastest / lead)
 
 
-def efficiency(sections: Sections, chosen: str | None, moves: bool, faults: list[Fault]) -> float | None:
+def efficiency(reader: Reader, chosen: str | None, moves: bool) -> float | None:
     """The efficiency of the rule of that name; None for a model, which :mod:`~ballscrew.cases.case_files.case_file`
     makes.
     """
-    table = sections.tables.get("model", {})
+    table = reader.tables.get("model", {})
     if not isinstance(table, dict):
         return None
     named = table.get("name")
     if CONSTANT_EFFICIENCY not in (named, chosen) or (chosen not in (None, CONSTANT_EFFICIENCY)):
         if "efficiency" in table and named != CONSTANT_EFFICIENCY:
             remedy = f'leave it out, or write name = "{CONSTANT_EFFICIENCY}"'
-            faults.append(Fault("model.efficiency", "a model computes it", str(table["efficiency"]), remedy))
+            reader.refuse("model.efficiency", "a model computes it", str(table["efficiency"]), remedy)
         return None
-    before = len(faults)
-    values = sections.values_of("model", faults)
+    part = reader.part()
+    values = reader.values_of("model")
     if not moves:
         remedy = f"take a model: {', '.join(MODELS)}"
         problem = "is a rule, which only ballscrew duty takes"
-        faults.append(Fault("model.name", problem, CONSTANT_EFFICIENCY, remedy))
-    faults += [
+        reader.refuse("model.name", problem, CONSTANT_EFFICIENCY, remedy)
+    reader.faults += [
         Fault(f"model.{name}", f'does not count with "{CONSTANT_EFFICIENCY}"', reprlib.repr(value), "leave it out")
         for name, value in table.items()
         if name not in ("name", "efficiency")
     ]
-    if len(faults) == before and "efficiency" not in values:
-        faults.append(Fault("model.efficiency", MISSING, "", "add efficiency = 0.9"))
-    return values["efficiency"] if len(faults) == before else math.nan
+    if not part.is_faulty and "efficiency" not in values:
+        reader.refuse("model.efficiency", MISSING, "", "add efficiency = 0.9")
+    return values["efficiency"] if not part.is_faulty else math.nan
 
 
-def _axis(sections: Sections, faults: list[Fault]) -> Axis | None:
-    before = len(faults)
-    values: dict[str, Any] = sections.values_of("axis", faults)
+def _axis(reader: Reader) -> Axis | None:
+    part = reader.part()
+    values: dict[str, Any] = reader.values_of("axis")
     weight = values.get("counterweight")
     if isinstance(weight, Counterforce):
         del values["counterweight"]
         if "counterforce" in values:
-            given = str(sections.tables["axis"]["counterweight"])
-            faults.append(Fault("axis.counterweight", "is a force beside the counterforce", given, "give one of them"))
+            given = str(reader.tables["axis"]["counterweight"])
+            reader.refuse("axis.counterweight", "is a force beside the counterforce", given, "give one of them")
         values["counterforce"] = float(weight)
-    return Axis(**values) if len(faults) == before else None
+    return None if part.is_faulty else Axis(**values)
 
 
-def _motion(sections: Sections, folder: Path, faults: list[Fault]) -> Motion | None:
-    before = len(faults)
-    table, values = sections.tables["motion"], sections.values_of("motion", faults)
-    if len(faults) > before:
+def _motion(reader: Reader) -> Motion | None:
+    part = reader.part()
+    table, values = reader.tables["motion"], reader.values_of("motion")
+    if part.is_faulty:
         return None
     kinds = (*MOTIONS, TRAJECTORY)
     kind: str = values.pop("kind", "")
     if not kind:
-        faults.append(Fault("motion.kind", MISSING, "", f"add kind = {either(kinds)}"))
+        reader.refuse("motion.kind", MISSING, "", f"add kind = {either(kinds)}")
     elif kind not in kinds:
-        faults.append(Fault("motion.kind", "unknown kind of motion", kind, nearest(kind, kinds)))
+        reader.refuse("motion.kind", "unknown kind of motion", kind, nearest(kind, kinds))
     else:
-        faults += _misplaced(kind, table)
-        faults += _missing(kind, table)
-    if len(faults) > before:
+        reader.faults += _misplaced(kind, table)
+        reader.faults += _missing(kind, table)
+    if part.is_faulty:
         return None
     if kind == TRAJECTORY:
         from ballscrew.axis.motion.trajectory_file import read_trajectory  # loads pandas
 
-        return _made("motion", functools.partial(read_trajectory, folder / values["file"]), faults)
+        return _made(reader, "motion", functools.partial(read_trajectory, reader.folder / values["file"]))
     if "segment" in values:
-        values["segment"] = _segments(values["segment"], faults)
+        values["segment"] = _segments(reader, values["segment"])
     given = {_FIELDS.get(key, key): value for key, value in values.items()}
-    return _made("motion", functools.partial(MOTIONS[kind], **given), faults) if len(faults) == before else None
+    return _made(reader, "motion", functools.partial(MOTIONS[kind], **given)) if not part.is_faulty else None
 
 
 def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
@@ -205,58 +204,56 @@ def _missing(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     return missing
 
 
-def _segments(tables: list[Any], faults: list[Fault]) -> tuple[Segment, ...]:
+def _segments(reader: Reader, tables: list[Any]) -> tuple[Segment, ...]:
     segments: list[Segment] = []
     for number, table in enumerate(tables, start=1):
-        where, before = f"motion.segment {number}", len(faults)
-        values: dict[str, Any] = read_table(where, duty_sections()["segment"], table, faults)
+        where, part = f"motion.segment {number}", reader.part()
+        values: dict[str, Any] = read_table(where, duty_sections()["segment"], table, reader.faults)
         made = None
-        if len(faults) == before:
-            made = _made(where, functools.partial(Segment, **values), faults)
+        if not part.is_faulty:
+            made = _made(reader, where, functools.partial(Segment, **values))
         segments += [] if made is None else [made]
     return tuple(segments)
 
 
-def _made(where: str, make: Callable[[], Any], faults: list[Fault]) -> Any:
+def _made(reader: Reader, where: str, make: Callable[[], Any]) -> Any:
     """What ``make`` returns; its faults are those of a place in the file."""
-    try:
-        return make()
-    except InputError as error:
-        for fault in error.faults:
-            section, _, field = fault.where.partition(".")
-            place = f"{where}.{field}" if section in ("motion", "segment") and where != section else fault.where
-            faults.append(dataclasses.replace(fault, where=place))
-        return None
+
+    def place_of(field: str) -> str:
+        section, _, name = field.partition(".")
+        return f"{where}.{name}" if section in ("motion", "segment") and where != section else field
+
+    return reader.made(make, place_of)
 
 
-def _motor(sections: Sections, faults: list[Fault]) -> Motor | None:
-    before = len(faults)
-    values: dict[str, Any] = sections.values_of("motor", faults)
+def _motor(reader: Reader) -> Motor | None:
+    part = reader.part()
+    values: dict[str, Any] = reader.values_of("motor")
     if "curve" in values:
-        values["curve"] = _curve(values["curve"], faults)
-    return _made("motor", functools.partial(Motor, **values), faults) if len(faults) == before else None
+        values["curve"] = _curve(reader, values["curve"])
+    return _made(reader, "motor", functools.partial(Motor, **values)) if not part.is_faulty else None
 
 
-def _surroundings(sections: Sections, faults: list[Fault]) -> Surroundings | None:
-    before = len(faults)
-    values: dict[str, Any] = sections.values_of("surroundings", faults)
-    if len(faults) > before:
+def _surroundings(reader: Reader) -> Surroundings | None:
+    part = reader.part()
+    values: dict[str, Any] = reader.values_of("surroundings")
+    if part.is_faulty:
         return None
-    return _made("surroundings", functools.partial(Surroundings, **values), faults)
+    return _made(reader, "surroundings", functools.partial(Surroundings, **values))
 
 
-def _curve(points: list[Any], faults: list[Fault]) -> tuple[tuple[float, float], ...]:
+def _curve(reader: Reader, points: list[Any]) -> tuple[tuple[float, float], ...]:
     pairs: list[tuple[float, float]] = []
     for number, point in enumerate(points, start=1):
         part = f"point {number}"
         if not isinstance(point, list) or len(point) != len(POINT):
             remedy = 'write curve = [["0 rpm", "7 N m"], ["3000 rpm", "5 N m"]]'
             problem = "is not a speed and a torque"
-            faults.append(Fault("motor.curve", problem, reprlib.repr(point), remedy, part=part))
+            reader.refuse("motor.curve", problem, reprlib.repr(point), remedy, part=part)
             continue
         numbers = [units.parse("motor.curve", raw, quantity) for raw, quantity in zip(point, POINT, strict=True)]
         wrong = [dataclasses.replace(number, part=part) for number in numbers if isinstance(number, Fault)]
-        faults += wrong
+        reader.faults += wrong
         if not wrong:
             speed, torque = (float(number) for number in numbers if not isinstance(number, Fault))
             pairs.append((speed, torque))

@@ -20,7 +20,7 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.units import in_display_units
 from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.cases.schema.sections import Sections
+from ballscrew.cases.schema.reader import Reader
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.materials import Lubricant
 
@@ -162,13 +162,13 @@ _POINTS = ("kinematic_viscosity_40", "kinematic_viscosity_100")
 OF_NAMED_OIL = ("grade", "oil", "oil_file", "temperature", *fields_of(DataSheet))
 
 
-def lubricant_of(sections: Sections, folder: Path, faults: list[Fault]) -> tuple[Lubricant | None, Mapping[str, Any]]:
+def lubricant_of(reader: Reader) -> tuple[Lubricant | None, Mapping[str, Any]]:
     """The oil of a section and, where it follows the temperature, what it was made from."""
-    before = len(faults)
-    table, values = sections.tables["lubricant"], sections.values_of("lubricant", faults)
+    part = reader.part()
+    table, values = reader.tables["lubricant"], reader.values_of("lubricant")
     if isinstance(table, dict):
-        faults += _contradictions(table)
-    if len(faults) > before:
+        reader.faults += _contradictions(table)
+    if part.is_faulty:
         return None, {}
     temperature = {name: values.pop(name) for name in ("temperature",) if name in values}
     of_sheet = {name: values.pop(name) for name in fields_of(DataSheet) if name in values}
@@ -180,14 +180,14 @@ def lubricant_of(sections: Sections, folder: Path, faults: list[Fault]) -> tuple
             oil = Lubricant.from_grade(grade, **temperature)
             made_from: dict[str, Any] = {"grade": grade, **temperature}
         else:
-            sheet = DataSheet(**of_sheet) if name is None else named_oil(name, file, folder)
+            sheet = DataSheet(**of_sheet) if name is None else named_oil(name, file, reader.folder)
             sheet = dataclasses.replace(sheet, **of_sheet)
             oil = Lubricant.from_sheet(sheet, **temperature)
             named = {} if name is None else {"oil": sheet.name, "oil_source": sheet.source}
             written = {key: getattr(sheet, key) for key in fields_of(DataSheet) if getattr(sheet, key) is not None}
             made_from = {**named, **written, **temperature}
     except InputError as error:
-        faults += [_shown(fault, table) for fault in error.faults]
+        reader.faults += [_shown(fault, table) for fault in error.faults]
         return None, {}
     return dataclasses.replace(oil, **values), made_from
 

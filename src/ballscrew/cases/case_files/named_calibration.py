@@ -11,6 +11,7 @@ from ballscrew.basis.errors import Fault, either, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity, Torque
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.case_schema import name_of_law
+from ballscrew.cases.schema.reader import Reader
 from ballscrew.evidence.validation.entries import NearRows, near_rows
 from ballscrew.physics.friction.calibrations import BY_MAKE, calibrated, calibration, calibration_of_make, calibrations
 from ballscrew.physics.friction.law_names import coefficients
@@ -89,20 +90,20 @@ def with_calibration(tables: Mapping[str, Any], name: str | None) -> Mapping[str
     return {**tables, "model": others if name == NO_CALIBRATION else {**others, "calibration": name}}
 
 
-def of_make(tables: Mapping[str, Any], row: CatalogueRow | None, faults: list[Fault]) -> Mapping[str, Any]:
+def of_make(reader: Reader, tables: Mapping[str, Any], row: CatalogueRow | None) -> Mapping[str, Any]:
     """Tables with the calibration of the make of the row, where the case leaves the choice to it; else as they are."""
     table = tables.get("model", {})
     if not isinstance(table, dict) or table.get("calibration") != BY_MAKE:
         return tables
     make = "" if row is None else row.make
     result = calibration_of_make(make)
-    if result is None and faults:
+    if result is None and reader.faults:
         return _without_calibration(tables)  # of a screw that is at fault itself
     if result is None:
         known = either(dict.fromkeys(one.maker for one in calibrations().values()))
         remedy = f"take a row of {known}, or the name of a calibration"
         problem = "there is none of this make" if make else "the make of this nut is not given"
-        faults.append(Fault("model.calibration", problem, make, remedy))
+        reader.refuse("model.calibration", problem, make, remedy)
         return _without_calibration(tables)
     return {**tables, "model": {**table, "calibration": result.name}}
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from ballscrew.basis import units
@@ -13,7 +12,7 @@ from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files.case import PreloadNote
 from ballscrew.cases.schema.case_schema import law_of
-from ballscrew.cases.schema.sections import Sections
+from ballscrew.cases.schema.reader import Reader
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS, Share
 from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
@@ -36,18 +35,18 @@ _RATED = ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls", "con
 _OF_NUT = ("nut", "bodies", "deviations", "losses")
 
 
-def row_of(
-    table: Mapping[str, Any], folder: Path, rows: Mapping[str, CatalogueRow] | None, faults: list[Fault]
-) -> CatalogueRow | None:
+def row_of(reader: Reader, table: Mapping[str, Any]) -> CatalogueRow | None:
     """The catalogue row that a table [screw] names: of ``rows``, or of its file, or of those shipped."""
     name, file = table.get("catalogue"), table.get("catalogue_file")
     if not isinstance(name, str) or not isinstance(file, str | None):
         return None
     try:
-        result = catalogue.load(None if file is None else folder / file)[0] if rows is None else rows
-        return catalogue.named(result, name, "screw.catalogue", file)
+        rows = reader.rows
+        if rows is None:
+            rows = catalogue.load(None if file is None else reader.folder / file)[0]
+        return catalogue.named(rows, name, "screw.catalogue", file)
     except InputError as error:
-        faults += error.faults
+        reader.faults += error.faults
         return None
 
 
@@ -110,11 +109,10 @@ def seal_torque_source(row: CatalogueRow | None, nut: Nut) -> str:
 
 
 def nut_of(
-    sections: Sections,
+    reader: Reader,
     screw: BallScrew | None,
     row: CatalogueRow | None,
     listed: Mapping[str, float],
-    faults: list[Fault],
 ) -> tuple[Nut | None, Sequence[PreloadNote]]:
     """The nut with its bodies, deviations and losses, and a note on its preload.
 
@@ -122,19 +120,19 @@ def nut_of(
     it leaves out is that of the row. The contact angle of a single nut that a case names follows the load.
     """
     of_row = None if row is None else listed_nut(row)
-    if of_row is None and not any(name in sections for name in _OF_NUT):
+    if of_row is None and not any(name in reader for name in _OF_NUT):
         return None, ()
-    before = len(faults)
+    part = reader.part()
     has_preload = row is not None and lists_preload(row)
-    if "nut" in sections or has_preload:
-        nut, notes = _nut(sections, screw, row, listed, faults)
+    if "nut" in reader or has_preload:
+        nut, notes = _nut(reader, screw, row, listed)
     else:
         spacers = row is not None and bool(row.spacer_balls)
         nut, notes = dataclasses.replace(SINGLE_NUT, spacer_balls=spacers), ()
-    bodies = _bodies(sections, row, has_preload, faults)
-    scatter = sections.values_of("deviations", faults) if "deviations" in sections else None
-    losses = {**({} if of_row is None else of_row.losses), **_losses(sections, faults)}
-    if len(faults) > before or nut is None:
+    bodies = _bodies(reader, row, has_preload)
+    scatter = reader.values_of("deviations") if "deviations" in reader else None
+    losses = {**({} if of_row is None else of_row.losses), **_losses(reader)}
+    if part.is_faulty or nut is None:
         return None, ()
     made = {
         "bodies": None if bodies is None else Bodies(**bodies),
@@ -142,7 +140,7 @@ def nut_of(
         "losses": losses,
     }
     nut = dataclasses.replace(nut, **{name: part for name, part in made.items() if part})
-    faults += _faults_of_bodies(nut, screw)
+    reader.faults += _faults_of_bodies(nut, screw)
     return nut, notes
 
 
@@ -157,43 +155,42 @@ def _faults_of_bodies(nut: Nut, screw: BallScrew | None) -> Sequence[Fault]:
     return ()
 
 
-def _bodies(
-    sections: Sections, row: CatalogueRow | None, has_preload: bool, faults: list[Fault]
-) -> dict[str, Any] | None:
+def _bodies(reader: Reader, row: CatalogueRow | None, has_preload: bool) -> dict[str, Any] | None:
     """The sizes of the bodies; the outer diameter of the nut is that of the row where the section leaves it out."""
     outer: dict[str, Any] = {}
     if row is not None and row.nut_outer_diameter is not None and not is_shipped(row):
         outer = {"nut_outer_diameter": row.nut_outer_diameter}
-    if "bodies" in sections:
-        return {**outer, **sections.values_of("bodies", faults)}
+    if "bodies" in reader:
+        return {**outer, **reader.values_of("bodies")}
     return outer if outer and has_preload else None
 
 
 def _nut(
-    sections: Sections,
+    reader: Reader,
     screw: BallScrew | None,
     row: CatalogueRow | None,
     listed: Mapping[str, float],
-    faults: list[Fault],
 ) -> tuple[Nut | None, Sequence[PreloadNote]]:
-    before = len(faults)
-    table = sections.tables.get("nut", {})
-    values = sections.values_of("nut", faults) if "nut" in sections else {}
-    if len(faults) > before:
+    part = reader.part()
+    table = reader.tables.get("nut", {})
+    values = reader.values_of("nut") if "nut" in reader else {}
+    if part.is_faulty:
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
     if kind not in NUTS:
-        missing = Fault("nut.type", MISSING, "", f"add type = {either(NUTS)}")
-        faults.append(missing if kind is None else Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
+        if kind is None:
+            reader.refuse("nut.type", MISSING, "", f"add type = {either(NUTS)}")
+        else:
+            reader.refuse("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS))
         return None, ()
-    faults += _misplaced(kind, table)
-    values = _with_preload(kind, values, row, faults)
-    if len(faults) > before:
+    reader.faults += _misplaced(kind, table)
+    values = _with_preload(reader, kind, values, row)
+    if part.is_faulty:
         return None, ()
     if row is not None and row.spacer_balls:
         values.setdefault("spacer_balls", True)
     if screw is not None and values.get("spacer_balls"):  # ratings are of the balls that carry
-        screw = _with_spacers(screw, faults)
+        screw = _with_spacers(reader, screw)
     made: Any = values
     preload = values.get("preload")
     if kind == "single":
@@ -207,30 +204,28 @@ def _nut(
     except InputError:
         remedy = 'add dynamic_load_rating = "… kN" to [screw], or give a force'
         given = str(table.get("preload", f"{100 * preload:.4g} %"))
-        faults.append(Fault("nut.preload", "is a share of a dynamic load rating that is not known", given, remedy))
+        reader.refuse("nut.preload", "is a share of a dynamic load rating that is not known", given, remedy)
         return None, ()
     made = {**values, "preload": preload * rating}
     return NUTS[kind](**made), (PreloadNote(preload, rating, source),)
 
 
-def _with_preload(
-    kind: str, values: Mapping[str, Any], row: CatalogueRow | None, faults: list[Fault]
-) -> dict[str, Any]:
+def _with_preload(reader: Reader, kind: str, values: Mapping[str, Any], row: CatalogueRow | None) -> dict[str, Any]:
     """The fields of a nut, with the preload that the row lists where the kind needs one and none is given."""
     if "preload" not in fields_of(NUTS[kind]) or {"preload", "oversize"} & set(values):
         return dict(values)
     of_row = {} if row is None else _preload_of(row)
     if not of_row:
         remedy = 'add preload = "3 kN", or "7 %" of the dynamic load rating'
-        faults.append(Fault("nut.preload", MISSING, "", remedy))
+        reader.refuse("nut.preload", MISSING, "", remedy)
     return {**values, **of_row}
 
 
-def _with_spacers(screw: BallScrew, faults: list[Fault]) -> BallScrew | None:
+def _with_spacers(reader: Reader, screw: BallScrew) -> BallScrew | None:
     try:
         return dataclasses.replace(screw, nut=dataclasses.replace(SINGLE, spacer_balls=True))
     except InputError as error:
-        faults += error.faults
+        reader.faults += error.faults
         return None
 
 
@@ -256,37 +251,37 @@ def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     ]
 
 
-def _losses(sections: Sections, faults: list[Fault]) -> dict[str, ParasiticLaw]:
+def _losses(reader: Reader) -> dict[str, ParasiticLaw]:
     """The laws of the table, by what they are of; none without a table."""
-    if "losses" not in sections:
+    if "losses" not in reader:
         return {}
-    before = len(faults)
-    sections.values_of("losses", faults)
-    if len(faults) > before:
+    part = reader.part()
+    reader.values_of("losses")
+    if part.is_faulty:
         return {}
     return {
-        slot: law_of(slot, written, next(iter(LOSSES[slot].values()))(), faults)
-        for slot, written in sections.tables["losses"].items()
+        slot: law_of(slot, written, next(iter(LOSSES[slot].values()))(), reader.faults)
+        for slot, written in reader.tables["losses"].items()
     }
 
 
-def installation(sections: Sections, faults: list[Fault]) -> Installation | None:
+def installation(reader: Reader) -> Installation | None:
     """Mounting of the screw."""
-    before = len(faults)
-    values = sections.values_of("installation", faults)
-    if len(faults) == before:
+    part = reader.part()
+    values = reader.values_of("installation")
+    if not part.is_faulty:
         if "unsupported_length" not in values:
-            faults.append(Fault("installation.unsupported_length", MISSING, "", 'add unsupported_length = "1 m"'))
+            reader.refuse("installation.unsupported_length", MISSING, "", 'add unsupported_length = "1 m"')
         ends = values.get("ends")
         if ends is None:
-            faults.append(Fault("installation.ends", MISSING, "", f"add ends = {either(ENDS)}"))
+            reader.refuse("installation.ends", MISSING, "", f"add ends = {either(ENDS)}")
         elif ends not in ENDS:
-            faults.append(Fault("installation.ends", "unknown kind of ends", ends, nearest(ends, ENDS)))
-    return Installation(**{**values, "ends": ENDS[values["ends"]]}) if len(faults) == before else None
+            reader.refuse("installation.ends", "unknown kind of ends", ends, nearest(ends, ENDS))
+    return None if part.is_faulty else Installation(**{**values, "ends": ENDS[values["ends"]]})
 
 
-def limits(sections: Sections, faults: list[Fault]) -> Limits:
+def limits(reader: Reader) -> Limits:
     """The limits of the checks."""
-    before = len(faults)
-    values = sections.values_of("limits", faults)
-    return Limits(**values) if len(faults) == before else Limits()
+    part = reader.part()
+    values = reader.values_of("limits")
+    return Limits() if part.is_faulty else Limits(**values)

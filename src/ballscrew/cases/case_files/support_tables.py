@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 from ballscrew.axis.duty_cycle.axis import Axis
@@ -22,11 +21,11 @@ from ballscrew.axis.supports.element_laws import (
     numbers_of,
 )
 from ballscrew.axis.supports.guide import CarriedMass, GuidedTable
-from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, shown
+from ballscrew.basis.errors import MISSING, Fault, nearest, shown
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files.lubricants import named_oil
 from ballscrew.cases.schema.duty_schema import OIL
-from ballscrew.cases.schema.sections import Sections
+from ballscrew.cases.schema.reader import Reader
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, parse_uncertain
 from ballscrew.physics.components.materials import Lubricant
@@ -36,29 +35,27 @@ from ballscrew.physics.sizing.installation import Ends, Installation
 _OF_UNIT = ("bore", "outside_diameter", "contact_angle")
 
 
-def bearings(
-    sections: Sections, folder: Path, lubricant: Lubricant | None, mounted: Installation | None, faults: list[Fault]
-) -> Mapping[str, MountedBearing]:
+def bearings(reader: Reader, lubricant: Lubricant | None, mounted: Installation | None) -> Mapping[str, MountedBearing]:
     """The bearings of the shaft by their place; none where the case has no table of them."""
-    if "bearings" not in sections:
+    if "bearings" not in reader:
         return {}
-    before = len(faults)
-    tables = sections.values_of("bearings", faults)
-    faults += _contradictions(sections, tables, mounted) if len(faults) == before else []
-    if len(faults) > before:
+    part = reader.part()
+    tables = reader.values_of("bearings")
+    reader.faults += _contradictions(reader, tables, mounted) if not part.is_faulty else []
+    if part.is_faulty:
         return {}
     share = 0.5 if "second_fixed" in tables else 1.0
     result = {
-        place: _bearing(place, dict(values), 0.0 if place == "floating" else share, folder, lubricant, faults)
+        place: _bearing(reader, place, dict(values), 0.0 if place == "floating" else share, lubricant)
         for place, values in tables.items()
     }
     return {place: bearing for place, bearing in result.items() if bearing is not None}
 
 
-def _contradictions(sections: Sections, tables: Mapping[str, Any], mounted: Installation | None) -> list[Fault]:
+def _contradictions(reader: Reader, tables: Mapping[str, Any], mounted: Installation | None) -> list[Fault]:
     """Faults of bearings that are given twice, or do not fit the ends of the shaft."""
     faults: list[Fault] = []
-    torque = _of_axis(sections).get("bearing_torque")
+    torque = _of_axis(reader).get("bearing_torque")
     if torque is not None:
         remedy = 'leave it out, or write [bearings.fixed] with law = "known" and this torque'
         faults.append(Fault("axis.bearing_torque", "is given beside the bearings", str(torque), remedy))
@@ -84,38 +81,38 @@ def _contradictions(sections: Sections, tables: Mapping[str, Any], mounted: Inst
 
 
 def _bearing(
-    place: str, values: dict[str, Any], share: float, folder: Path, lubricant: Lubricant | None, faults: list[Fault]
+    reader: Reader, place: str, values: dict[str, Any], share: float, lubricant: Lubricant | None
 ) -> MountedBearing | None:
-    where, before = f"bearings.{place}", len(faults)
+    where, part = f"bearings.{place}", reader.part()
     law, row = values.pop("law", next(iter(BEARING_LAWS))), values.pop("catalogue", None)
     if law not in BEARING_LAWS:
-        faults.append(Fault(f"{where}.law", "unknown law of a bearing", law, nearest(law, BEARING_LAWS)))
+        reader.refuse(f"{where}.law", "unknown law of a bearing", law, nearest(law, BEARING_LAWS))
         return None
     known = fields_of(BEARING_LAWS[law])
     mounting = {name: values.pop(name) for name in MOUNTING if name in values}
     oil = {name: values.pop(name) for name in OIL if name in values}
-    faults += misplaced(where, law, BEARING_LAWS, values)
+    reader.faults += misplaced(where, law, BEARING_LAWS, values)
     if row is not None:
-        unit = _made(where, lambda: support_units()[row], faults)
+        unit = _made(reader, where, lambda: support_units()[row])
         if unit is None:
             return None
         of_row = {name: getattr(unit, name) for name in _OF_UNIT if name in known}
         values = {**{name: value for name, value in of_row.items() if value is not None}, **values}
         mounting = {"rigidity": unit.rigidity, **mounting}
         if "preload" in known and "preload" not in values:
-            faults.append(Fault(f"{where}.preload", "is not printed in the catalogue", row, 'add preload = "… N"'))
-    faults += missing(where, BEARING_LAWS[law], values)
+            reader.refuse(f"{where}.preload", "is not printed in the catalogue", row, 'add preload = "… N"')
+    reader.faults += missing(where, BEARING_LAWS[law], values)
     if "lubricant" in BEARING_LAWS[law].__dataclass_fields__:
-        values["lubricant"] = _lubricant(where, oil, folder, lubricant, faults)
+        values["lubricant"] = _lubricant(reader, where, oil, lubricant)
     elif oil:
-        faults.append(Fault(f"{where}.{next(iter(oil))}", f'a bearing of law "{law}" has none', "", "leave it out"))
-    if len(faults) > before:
+        reader.refuse(f"{where}.{next(iter(oil))}", f'a bearing of law "{law}" has none', "", "leave it out")
+    if part.is_faulty:
         return None
-    element = _made(where, lambda: BEARING_LAWS[law](**values), faults)
+    element = _made(reader, where, lambda: BEARING_LAWS[law](**values))
     if element is None:
         return None
     return _made(
-        where, lambda: MountedBearing(place=place, element=element, **{"load_share": share, **mounting}), faults
+        reader, where, lambda: MountedBearing(place=place, element=element, **{"load_share": share, **mounting})
     )
 
 
@@ -127,110 +124,104 @@ def mounted_on(mounted: Installation | None, mounted_bearings: Mapping[str, Moun
     return dataclasses.replace(mounted, bearing_rigidity=rigidity)
 
 
-def guided(
-    sections: Sections, axis: Axis | None, folder: Path, lubricant: Lubricant | None, faults: list[Fault]
-) -> Axis | None:
+def guided(reader: Reader, axis: Axis | None, lubricant: Lubricant | None) -> Axis | None:
     """The axis with its guides, where the case has a table of them."""
-    if "guides" not in sections:
+    if "guides" not in reader:
         return axis
-    before = len(faults)
-    values = sections.values_of("guides", faults)
-    if "axis" not in sections:
-        faults.append(Fault("guides", "carry the mass of an axis", "", 'add a table [axis] with mass = "400 kg"'))
-    if len(faults) > before:
+    part = reader.part()
+    values = reader.values_of("guides")
+    if "axis" not in reader:
+        reader.refuse("guides", "carry the mass of an axis", "", 'add a table [axis] with mass = "400 kg"')
+    if part.is_faulty:
         return None
     for name in ("guide_friction_coefficient", "guide_seal_force"):
-        if name in _of_axis(sections):
-            given = str(_of_axis(sections)[name])
-            faults.append(Fault(f"axis.{name}", "is given beside the guides", given, "leave it out"))
+        if name in _of_axis(reader):
+            given = str(_of_axis(reader)[name])
+            reader.refuse(f"axis.{name}", "is given beside the guides", given, "leave it out")
     law, row = values.pop("law", next(iter(GUIDE_LAWS))), values.pop("catalogue", None)
     if law not in GUIDE_LAWS:
-        faults.append(Fault("guides.law", "unknown law of guides", law, nearest(law, GUIDE_LAWS)))
+        reader.refuse("guides.law", "unknown law of guides", law, nearest(law, GUIDE_LAWS))
         return None
     where = {name: values.pop(name) for name in STATICS if name in values}
     oil = {name: values.pop(name) for name in OIL if name in values}
-    faults += misplaced("guides", law, GUIDE_LAWS, values)
+    reader.faults += misplaced("guides", law, GUIDE_LAWS, values)
     if row is not None:
-        carriage = _made("guides", lambda: guide_rows()[row], faults)
+        carriage = _made(reader, "guides", lambda: guide_rows()[row])
         if carriage is None:
             return None
         own = {"friction_coefficient": carriage.friction_coefficients[1], "seal_force": carriage.seal_force}
         values = {**{name: value for name, value in own.items() if name in fields_of(GUIDE_LAWS[law])}, **values}
-    faults += missing("guides", GUIDE_LAWS[law], values)
+    reader.faults += missing("guides", GUIDE_LAWS[law], values)
     if "lubricant" in GUIDE_LAWS[law].__dataclass_fields__:
-        values["lubricant"] = _lubricant("guides", oil, folder, lubricant, faults)
+        values["lubricant"] = _lubricant(reader, "guides", oil, lubricant)
     elif oil:
-        faults.append(Fault(f"guides.{next(iter(oil))}", f'guides of law "{law}" have none', "", "leave it out"))
-    if len(faults) > before or axis is None:
+        reader.refuse(f"guides.{next(iter(oil))}", f'guides of law "{law}" have none', "", "leave it out")
+    if part.is_faulty or axis is None:
         return None
-    table = _table(axis, where, values.get("carriages", 4), faults)
-    guides = _made("guides", lambda: GUIDE_LAWS[law](**values), faults)
-    return None if len(faults) > before else dataclasses.replace(axis, guides=guides, table=table)
+    table = _table(reader, axis, where, values.get("carriages", 4))
+    guides = _made(reader, "guides", lambda: GUIDE_LAWS[law](**values))
+    return None if part.is_faulty else dataclasses.replace(axis, guides=guides, table=table)
 
 
-def _of_axis(sections: Sections) -> Mapping[str, Any]:
+def _of_axis(reader: Reader) -> Mapping[str, Any]:
     """The table of the axis as it is written; empty where it is none."""
-    table = sections.tables.get("axis")
+    table = reader.tables.get("axis")
     return table if isinstance(table, dict) else {}
 
 
-def _table(axis: Axis, where: Mapping[str, float], carriages: float, faults: list[Fault]) -> GuidedTable | None:
+def _table(reader: Reader, axis: Axis, where: Mapping[str, float], carriages: float) -> GuidedTable | None:
     """Where the mass is on four carriages; None where the case does not tell."""
     if not where:
         return None
     for name in ("carriage_spacing", "rail_spacing"):
         if name not in where:
             remedy = f'add {name} = "… mm", or leave {", ".join(where)} out'
-            faults.append(Fault(f"guides.{name}", MISSING, "", remedy))
+            reader.refuse(f"guides.{name}", MISSING, "", remedy)
     if carriages != 4:
         remedy = f"leave {', '.join(where)} out: all carriages then bear alike"
-        faults.append(Fault("guides.carriages", "must be four for the loads of each", f"{carriages:g}", remedy))
-    if faults:
+        reader.refuse("guides.carriages", "must be four for the loads of each", f"{carriages:g}", remedy)
+    if reader.faults:
         return None
     spacing = {name: where[name] for name in ("carriage_spacing", "rail_spacing")}
     place = {name: where[name] for name in ("along", "across", "above") if name in where}
     return GuidedTable(masses=(CarriedMass(mass=axis.mass, **place),), inclination=axis.inclination, **spacing)
 
 
-def _lubricant(
-    where: str, oil: dict[str, Any], folder: Path, lubricant: Lubricant | None, faults: list[Fault]
-) -> Lubricant | None:
+def _lubricant(reader: Reader, where: str, oil: dict[str, Any], lubricant: Lubricant | None) -> Lubricant | None:
     """The oil of an element, at the temperature of that of the screw, or else the screw's."""
     if "grade" in oil and "oil" in oil:
-        faults.append(Fault(f"{where}.grade", "contradicts oil", str(oil["grade"]), "give one of the two"))
+        reader.refuse(f"{where}.grade", "contradicts oil", str(oil["grade"]), "give one of the two")
     if "oil_file" in oil and "oil" not in oil:
-        faults.append(Fault(f"{where}.oil_file", "needs the name of an oil", str(oil["oil_file"]), 'add oil = "…"'))
+        reader.refuse(f"{where}.oil_file", "needs the name of an oil", str(oil["oil_file"]), 'add oil = "…"')
     if not oil:
         if lubricant is None:
-            faults.append(Fault(f"{where}.grade", MISSING, "", 'add grade = "ISO VG 68", or a [lubricant]'))
+            reader.refuse(f"{where}.grade", MISSING, "", 'add grade = "ISO VG 68", or a [lubricant]')
         return lubricant
     at = {} if lubricant is None or lubricant.temperature is None else {"temperature": lubricant.temperature}
     if "grade" in oil:
-        return _made(where, lambda: Lubricant.from_grade(oil["grade"], **at), faults)
+        return _made(reader, where, lambda: Lubricant.from_grade(oil["grade"], **at))
     if "oil" in oil:
         return _made(
-            where, lambda: Lubricant.from_sheet(named_oil(oil["oil"], oil.get("oil_file"), folder), **at), faults
+            reader, where, lambda: Lubricant.from_sheet(named_oil(oil["oil"], oil.get("oil_file"), reader.folder), **at)
         )
     return None
 
 
-def _made(where: str, make: Callable[[], Any], faults: list[Fault]) -> Any:
+def _made(reader: Reader, where: str, make: Callable[[], Any]) -> Any:
     """What ``make`` returns; its faults are those of a place in the file."""
-    try:
-        return make()
-    except InputError as error:
-        for fault in error.faults:
-            section, _, field = fault.where.rpartition(".")
-            field = field if section else "catalogue"
-            faults.append(dataclasses.replace(fault, where=f"{where}.{field}"))
-        return None
+
+    def place_of(field: str) -> str:
+        section, _, name = field.rpartition(".")
+        return f"{where}.{name if section else 'catalogue'}"
+
+    return reader.made(make, place_of)
 
 
-def distributions(sections: Sections) -> Mapping[str, Distribution]:
+def distributions(reader: Reader) -> Mapping[str, Distribution]:
     """The distributions of numbers of bearings and guides: ``bearings.fixed.torque``, ``guides.seal_force``."""
-    places = {f"bearings.{place}": table for place, table in sections.tables.get("bearings", {}).items()}
+    places = {f"bearings.{place}": table for place, table in reader.tables.get("bearings", {}).items()}
     known, result = {**fields_of_laws(GUIDE_LAWS), **fields_of_laws(BEARING_LAWS)}, dict[str, Distribution]()
-    for where, table in {**places, "guides": sections.tables.get("guides", {})}.items():
+    for where, table in {**places, "guides": reader.tables.get("guides", {})}.items():
         for name in UNCERTAIN:
             written = parse_uncertain(table.get(name), known[name])
             if isinstance(written, UncertainValue) and written.distribution is not None:

@@ -23,12 +23,11 @@ def list_names(
 ) -> None:
     """List grades, laws, models, inputs or outputs. Grades are those of oils; inputs are what can be varied."""
     from ballscrew.cases.case_files import case_file
-    from ballscrew.questions import names as compute
-    from ballscrew.questions import names as text
+    from ballscrew.questions import names
 
-    names = compute.names(kind, None if case is None else case_file.load(case))
-    names = [name for name in names if all(word.lower() in " ".join(name).lower() for word in words or ())]
-    print_answer(lambda: text.text(names), lambda: compute.document(kind, names), as_json=as_json)
+    known = names.names(kind, None if case is None else case_file.load(case))
+    known = [name for name in known if all(word.lower() in " ".join(name).lower() for word in words or ())]
+    print_answer(lambda: names.text(known), lambda: names.document(kind, known), as_json=as_json)
 
 
 def cite(
@@ -101,8 +100,7 @@ def list_oils(
 ) -> None:
     """All oils, one line each."""
     from ballscrew.cases.case_files import lubricants
-    from ballscrew.questions import oils as document
-    from ballscrew.questions.oils import list_text
+    from ballscrew.questions.oils import document, list_text
 
     sheets = lubricants.chosen(lubricants.oils(file), " ".join(words or []))
     print_answer(lambda: list_text(sheets), lambda: document(sheets), as_json=as_json)
@@ -119,8 +117,7 @@ def show_oil(
     The viscosities are from -40 to 120 degC.
     """
     from ballscrew.cases.case_files import lubricants
-    from ballscrew.questions import oils as document
-    from ballscrew.questions.oils import show_text
+    from ballscrew.questions.oils import document, show_text
 
     sheet = lubricants.oils(file).named(name)
     print_answer(lambda: show_text(sheet), lambda: document([sheet]), as_json=as_json)
@@ -141,11 +138,10 @@ def check_cards(
     A card without a fault has one line, with what it does not state.
     """
     from ballscrew.cases.torque_cards import torque_card
-    from ballscrew.questions import card as documents
-    from ballscrew.questions.card import text_of
+    from ballscrew.questions.card import documents, text_of
 
     read = torque_card.read_all(cards)
-    print_answer(lambda: text_of(read), lambda: documents.documents(read), as_json=as_json)
+    print_answer(lambda: text_of(read), lambda: documents(read), as_json=as_json)
 
 
 @card.command("schema")

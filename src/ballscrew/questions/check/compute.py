@@ -17,6 +17,7 @@ from ballscrew.basis.records import Record, Severity, documents
 from ballscrew.cases.case_files import case_file, descriptions, inputs, nut_tables
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.law_import import OPTIONS, in_options
+from ballscrew.cases.schema.reader import Reader
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_of
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
@@ -204,7 +205,7 @@ def with_nut_named(
     screw = tables.get("screw")
     if not isinstance(screw, dict) or "catalogue" not in screw:
         return {**tables, "nut": {"type": "single"}}, ("no [nut] given: a single nut",)
-    row = nut_tables.row_of(screw, folder, None, [])  # where there is none, the case is refused for it
+    row = nut_tables.row_of(Reader({}, folder), screw)  # where there is none, the case is refused for it
     kind = others.get("nut.type", "single" if row is None else row.nut or "single")
     nut = {"preload": "0 N"} if kind in PRELOADED else {}
     return {**tables, "nut": nut}, ("no [nut] given: the nut of the row, without preload",)
