@@ -11,13 +11,13 @@ from ballscrew.faces.web import documents
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check import document
 from ballscrew.questions.check.answer import Checks
-from ballscrew.questions.check.compute import BothRatings, Geometry, Options, Rated, one
+from ballscrew.questions.check.compute import Geometry, Options, Rated, one
 from ballscrew.questions.check.sheet import cells, sheet
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.run.nut_loads import NutLoads
 from ballscrew.questions.run.sheet import stiffness_fields
 from ballscrew.questions.shared import declared
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 from support.commands import ROOT
 from support.drive_case import drive_case
 
@@ -115,8 +115,3 @@ def test_every_number_has_a_unit(found):
     parts = {name: answer[name] for name in ("geometry", "loads", "ratings")}
     # as counted, and the factor of a standard
     assert set(without_unit(parts, answer["units"])) <= {"loads.balls.count", "loads.axial_rigidity.accuracy_factor"}
-
-
-@pytest.mark.parametrize("cls", [BothRatings, Geometry, NutLoads])
-def test_every_part_is_described(cls):
-    assert list(undescribed(cls)) == []
