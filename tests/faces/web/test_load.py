@@ -3,7 +3,6 @@
 import concurrent.futures
 import importlib.util
 import io
-import itertools
 import sys
 from pathlib import Path
 
@@ -32,20 +31,6 @@ def test_fifty_users_at_once(server, serve):
     seconds, statuses = serve.crowd(server.address, users=50, each=4)
     assert statuses == {200: 200}
     assert len(seconds) == 200
-
-
-@pytest.mark.long  # 80 requests of all kinds; test_hostile.py watches the memory over its own in every run
-def test_memory_stays_after_the_first_requests(server, serve):
-    """What is loaded once comes with the first."""
-
-    def ask(first):
-        for path, body, status in itertools.islice(serve.requests(first), 40):
-            assert server.post(path, body).status_code == status
-
-    ask(1)
-    before = server.memory
-    ask(2)
-    assert server.memory - before < 15
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="needs malloc_trim of glibc")
@@ -81,16 +66,6 @@ def test_memory_after_a_thousand_reports(start, serve):
         bodies = ({"case": serve.case_number(i)} for i in range(1000))
         assert {found.status_code for found in pool.map(lambda body: server.post("report", body), bodies)} == {200}
     assert server.memory < 400
-
-
-@pytest.mark.long
-def test_memory_stays(server, serve):
-    """What is loaded once comes in the first seconds."""
-    serve.mixed(server.process, server.address, 8)
-    memory, wrong, counts = serve.mixed(server.process, server.address, 15, every=3)
-    assert not wrong
-    assert min(counts[path] for path in ("run", "sweep", "drawing", "compare", "band")) > 3
-    assert memory[-1][1] - memory[0][1] < 15
 
 
 def test_what_is_kept_is_bounded():
