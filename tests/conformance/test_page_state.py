@@ -1,4 +1,4 @@
-"""The state of the page is in one place: no module of its JavaScript has variables, and none is handed listeners.
+"""The state of the page is in one place: no module of its JavaScript has variables, and none keeps listeners.
 
 What a card holds while it is open (the log that was dropped, columns given by hand) is in the functions that set it up,
 and not looked for here.
@@ -47,12 +47,9 @@ HOLDERS = {
 }
 #: What ``new`` makes that does not change.
 CONSTANT = {"Intl", "Promise", "RegExp"}
-#: What takes a function all the same: to listen as the platform has it, and what calls it before it returns.
-TAKING = {"addEventListener": "an event", "change": "an edit of the state", "fromFragment": "where it looks fields up"}
 
 _DECLARED = re.compile(r"^(?:export )?(let|var|const) (?:\{[^}]*\}|\[[^\]]*\]|(\w+))", re.MULTILINE)
 _MADE = re.compile(r"\bnew (\w+)")
-_IMPORTED = re.compile(r'^import (?:\* as (\w+)|\{ ([^}]+) \}) from "\.', re.MULTILINE)
 
 
 class Statement(NamedTuple):
@@ -89,48 +86,6 @@ def holders(source: str) -> list[str]:
         return bool(made or element or re.search(written, source, re.MULTILINE))
 
     return [one.name for one in declarations(source) if one.keyword == "const" and changes(one)]
-
-
-def _end(source: str, place: int) -> int:
-    """The place behind the bracket that closes the one before a place."""
-    depth = 1
-    while depth:
-        depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(source[place], 0)
-        place += 1
-    return place
-
-
-def _values(arguments: str) -> Iterator[str]:
-    """The arguments of a call one by one; of a table its values."""
-    start = place = 0
-    while place <= len(arguments):
-        if arguments[place : place + 1] in "([{" and place < len(arguments):
-            place = _end(arguments, place + 1)
-        elif place == len(arguments) or arguments[place] == ",":
-            one = arguments[start:place].strip()
-            if one.startswith("{") and one.endswith("}"):
-                yield from (re.sub(r"^\w+: ", "", value) for value in _values(one[1:-1]))
-            elif one:
-                yield one
-            start = place = place + 1
-        else:
-            place += 1
-
-
-def injected(source: str) -> list[str]:
-    """Calls of other modules that hand them a function to be called later."""
-    imports = _IMPORTED.findall(source)
-    names = {name.strip() for one, some in imports for name in (one or some).split(",")}
-    own = "|".join(re.findall(r"^(?:async )?function (\w+)\(", source, re.MULTILINE))
-    others = "|".join(one for one, _ in imports if one)
-    function = re.compile(rf"(?:async )?(?:\w+|\(.*?\)) =>|(?:{own})$|(?:{others})\.[a-z]\w*$", re.DOTALL)
-    return [
-        call[0].rstrip("(")
-        for call in re.finditer(r"(?<![\w.])(\w+)(?:\.(\w+))?\(", source)
-        if call[1] in names
-        and (call[2] or call[1]) not in TAKING
-        and any(function.match(one) for one in _values(source[call.end() : _end(source, call.end()) - 1]))
-    ]
 
 
 def modules() -> dict[str, str]:
@@ -170,25 +125,6 @@ def test_holders_are_what_changes(source, expected):
     assert holders(source) == expected
 
 
-@pytest.mark.parametrize(
-    ("body", "expected"),
-    [
-        ("designs.setUp(follow);", ["designs.setUp"]),
-        ("onReturn(() => {\n    follow();\n  });", ["onReturn"]),
-        ("designs.begin(async (one) => one);", ["designs.begin"]),
-        ("designs.build({ change: 1 }, 2, designs.name());", []),
-        ("designs.build({ first: 1, then: () => follow() });", ["designs.build"]),
-        ("designs.build(designs.current);", ["designs.build"]),
-        ("designs.build(all.map(designs.current).join(), follow());", []),
-        ('designs.addEventListener("change", follow);', []),
-        ("follow(() => {});", []),
-    ],
-)
-def test_injected_listeners_are_functions_that_others_get(body, expected):
-    imports = 'import * as designs from "./designs.js";\nimport { get, onReturn } from "./server.js";\n'
-    assert injected(f"{imports}\nfunction follow() {{}}\nfunction begin() {{\n  {body}\n}}\n") == expected
-
-
 def test_modules_of_the_page_have_no_variables():
     found = modules()
     assert {"main.js", "store.js", "cards/duty.js"} <= found.keys()
@@ -198,10 +134,6 @@ def test_modules_of_the_page_have_no_variables():
 def test_what_changes_on_the_page_has_its_reason():
     found = [f"{name} {holder}" for name, source in modules().items() for holder in holders(source)]
     assert sorted(found) == sorted(HOLDERS)
-
-
-def test_the_start_of_the_page_hands_no_listeners_around():
-    assert injected(modules()["main.js"]) == []
 
 
 def test_no_module_keeps_listeners_of_its_own():

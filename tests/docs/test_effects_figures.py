@@ -5,13 +5,12 @@ import re
 from pathlib import Path
 
 import pytest
-from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.text import Text
 
 from ballscrew.questions.shared import charts
 from effect_study import effect_figures, law_figures
 from effect_study.cases import CASES, effects
+from support.pictures import clipped
 
 PLOTS = {**effect_figures.DRAWN, **law_figures.DRAWN}
 ROOT = Path(__file__).parents[2]
@@ -66,20 +65,7 @@ def test_panels_are_titled(figure):
 
 
 def test_nothing_is_clipped(figure):
-    renderer = figure.canvas.get_renderer()
-    page = figure.bbox.padded(1.0)
-    undrawn = set()
-    for panel in figure.findobj(Axes):
-        for axis in (panel.xaxis, panel.yaxis):
-            low, high = sorted(axis.get_view_interval())
-            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
-                if not low <= tick.get_loc() <= high:
-                    undrawn |= {tick.label1, tick.label2}
-    for text in figure.findobj(Text):
-        if text.get_text() and text.get_visible() and text not in undrawn:
-            box = text.get_window_extent(renderer)
-            inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
-            assert inside, text.get_text()
+    assert clipped(figure) == []
 
 
 def test_the_bars_end_at_the_torque():

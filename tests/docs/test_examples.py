@@ -5,6 +5,8 @@ cannot run here has ``<!-- not run: why -->`` before it.
 """
 
 import shutil
+import subprocess
+import sys
 
 import matplotlib as mpl
 import pytest
@@ -78,3 +80,16 @@ def test_what_does_not_run_says_why(page):
 
 def test_few_examples_do_not_run():
     assert sum(markers(page) for page in pages()) <= 3
+
+
+@pytest.mark.parametrize("name", ["axis_log", "condition_table", "rig_log", "service_logs"])
+def test_logs_of_the_examples_are_what_their_scripts_make(name):
+    """Each script compares what it makes with the file, and ends with an error where it differs."""
+    script = [sys.executable, str(ROOT / "examples" / f"make_{name}.py")]
+    done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("name", ["axis_log", "nut_new", "nut_over_years", "nut_worn", "rig_log"])
+def test_logs_of_the_examples_say_that_nobody_measured_them(name):
+    assert (ROOT / "examples" / f"{name}.csv").read_text(encoding="utf-8").startswith("# SYNTHETIC")

@@ -35,14 +35,14 @@ def build(folder, optimised="-O0"):
     assert not built.stderr
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def subject():
     row = bs.catalogue()["rexroth-16x5x3-4-double"]
     oil = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
     return bs.FrictionModel.olaru2005(), row.screw(nut=bs.DoubleNut(preload=900.0)), oil
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def folder(subject, tmp_path_factory):
     """The export, with its plugin built and loaded: once in a process, as MuJoCo knows each name once."""
     import mujoco
@@ -55,7 +55,7 @@ def folder(subject, tmp_path_factory):
     return place
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def axis(folder):
     return json.loads((folder / "axis.json").read_text())
 

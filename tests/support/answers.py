@@ -1,18 +1,7 @@
-"""Answers and their schemas: parts without a description, numbers without a unit."""
+"""Answers: numbers without a unit."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
-
-from ballscrew.questions.shared import declared
-
-
-def undescribed(cls: type) -> Iterator[str]:
-    """The parts of an answer, and of those in it, of which its schema does not say what they are."""
-    schema = declared.schema(cls).model_json_schema()
-    for name, model in {cls.__name__: schema, **schema.get("$defs", {})}.items():
-        for part, described in model["properties"].items():
-            if "description" not in described:
-                yield f"{name}.{part}"
 
 
 def without_unit(results: Mapping[str, Any], units: Any, path: str = "") -> Iterator[str]:

@@ -49,11 +49,8 @@ name = "olaru2005"
 """
 
 
-def columns(rows=120, seed=0, loads=(200, 4000), speeds=(10, 1000), noise=NOISE, against=False):
-    """A drive torque in both directions, in the units of people, at single settings in random order.
-
-    The load has one direction, or is always against the motion.
-    """
+def columns(rows=120, seed=0, loads=(200, 4000), speeds=(10, 1000), noise=NOISE):
+    """A drive torque in both directions, in the units of people, at single settings in random order."""
     random = np.random.default_rng(seed)
     made = case_file.build(tomllib.loads(PAPER), None, EXAMPLES)
     friction = dataclasses.replace(made.model.friction, boundary_friction_coefficient=TRUE_FRICTION)
@@ -62,9 +59,7 @@ def columns(rows=120, seed=0, loads=(200, 4000), speeds=(10, 1000), noise=NOISE,
     speed = np.exp(random.uniform(*np.log(speeds), rows))
     sign = np.where(random.random(rows) < 0.5, -1.0, 1.0)
     result = true(made.screw, made.lubricant, axial_load=load, screw_speed=speed * RPM)
-    torque = (
-        (sign if against else 1.0) * result.ideal_torque + sign * result.screw_torque + random.normal(0, noise, rows)
-    )
+    torque = result.ideal_torque + sign * result.screw_torque + random.normal(0, noise, rows)
     return {"speed": sign * speed, "load": load, "torque": torque}
 
 

@@ -15,6 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib import image
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 from pypdf import PdfReader
 
 _SVG = "{http://www.w3.org/2000/svg}"
@@ -233,3 +236,27 @@ def words_of(path: Path) -> str:
         return " ".join(page.extract_text().split())
     assert min(size(path.read_bytes())) > 300
     return ""
+
+
+def undrawn(figure: Figure) -> set[Text]:
+    """Labels of ticks beyond the limits, or of hidden axes: they are laid out but not drawn."""
+    found = set()
+    for panel in figure.findobj(Axes):
+        for axis in (panel.xaxis, panel.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
+                if not (panel.axison and low <= tick.get_loc() <= high):
+                    found |= {tick.label1, tick.label2}
+    return found
+
+
+def clipped(figure: Figure) -> list[str]:
+    """Texts of a figure, laid out, that reach beyond its page."""
+    renderer, page, hidden = figure.canvas.get_renderer(), figure.bbox.padded(1.0), undrawn(figure)
+    shown = [text for text in figure.findobj(Text) if text.get_text() and text.get_visible() and text not in hidden]
+    boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in shown]
+    return [
+        words
+        for words, box in boxes
+        if not (page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1)
+    ]

@@ -124,14 +124,6 @@ def test_a_case_without_an_installation_says_what_to_add(ballscrew):
     assert "installation: missing section" in process.stderr
 
 
-def test_a_shaft_that_is_too_long_is_told():
-    report = chain_of(load(EXAMPLE, ['installation.unsupported_length="4 m"']))
-    verdicts = {record.name: record for record in report.verdicts}
-    assert verdicts["critical_speed"].holds is False
-    assert verdicts["critical_speed"].severity == "warning"
-    assert verdicts["buckling"].holds is True
-
-
 def test_a_nut_without_preload_and_load_has_no_rigidity():
     mounted = '[installation]\nunsupported_length = "1 m"\nends = "fixed-free"\n'
     tables = tomllib.loads(EXAMPLE.read_text(encoding="utf-8").partition("[axis]")[0] + mounted)

@@ -3,17 +3,15 @@
 import json
 import math
 import re
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
 import pytest
 from matplotlib.text import Text
 
 from ballscrew.basis.quantities import quantities_of
-from ballscrew.basis.units import to_digits
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.uncertainty.bands import Interval, OutputBand
-from ballscrew.faces.sheets import pictures, report_blocks
+from ballscrew.faces.sheets import pictures
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.rolling import biboulet_houpert_rolling
@@ -22,7 +20,6 @@ from ballscrew.questions.band import compute, document
 from ballscrew.questions.band.sheet import sheet
 from ballscrew.questions.compare.compute import candidates
 from ballscrew.questions.shared import charts
-from ballscrew.questions.shared.report_blocks import Paragraph
 from support.pictures import words_of
 
 
@@ -49,15 +46,8 @@ def test_json(drive, ballscrew):
         with_band[kind] = without[kind]
     assert with_band == without
     assert (found["level"], found["samples"], found["seed"]) == (0.95, 512, 0)
-    torque = found["screw_torque"]
-    assert torque["value"] == without["results"]["screw_torque"]
-    assert torque["low"] < torque["median"] < torque["high"]
-    for cause in ("parameters", "model_form"):
-        assert torque[cause]["low"] < torque["value"] < torque[cause]["high"]
-    assert 0 < torque["share_of_parameters"] < 1
-    for name in ("efficiency", "back_driving_efficiency", "holding_torque", "drive_torque", "friction_power"):
+    for name in ("screw_torque", "efficiency", "back_driving_efficiency", "holding_torque", "friction_power"):
         assert found[name]["value"] == pytest.approx(without["results"][name], rel=1e-12)
-    assert found["self_locking_share"] == 0
     assert found["inputs"]["temperature"]["distribution"].startswith("normal, mean 313.15 K")
     assert found["inputs"]["friction.full_film_friction_coefficient"]["source"] == "Arana2019"
     assert {law["name"] for law in found["laws"]["rolling"]} == {"olaru", "houpert", "aihara"}
@@ -87,42 +77,6 @@ def test_where_the_laws_pull_the_band_one_line_says_which_number_to_use(torque, 
     assert [record.id for record in found] == ids
     assert [record.value for record in found] == used
     assert all(f"{value:.3g} N m" in record.text for value, record in zip(used, found, strict=True))
-
-
-def test_ends_are_rounded_outward_and_the_value_is_that_of_the_run(drive, ballscrew):
-    """In the sentence and in both tables, with the digits of the command without a band."""
-    text = ballscrew("run", drive, "--band", "--samples", "64").stdout
-    found = document_of(ballscrew("run", drive, "--band", "--samples", "64", "--json"))["band"]
-
-    def written(value, rounding):
-        return f"{float(Context(4, rounding).create_decimal(repr(value))):.4g}"
-
-    torque, power = found["screw_torque"], found["friction_power"]
-    low, high = written(torque["low"], ROUND_FLOOR), written(torque["high"], ROUND_CEILING)
-    assert f"between {low} N m and {high} N m" in " ".join(text.split())
-    assert re.search(rf"inputs and laws +{low} N m +{high} N m ", text)
-    low, high = written(power["low"], ROUND_FLOOR), written(power["high"], ROUND_CEILING)
-    (row,) = [line for line in text.splitlines() if line.startswith("  power dissipated")]
-    assert re.search(rf"{power['value']:.4g} W +{power['median']:.4g} W +{low} W +{high} W$", row.rstrip())
-    without = ballscrew("run", drive).stdout
-    assert f"{power['value']:.4g} W" in without
-    assert f"{torque['value']:.4g} N m" in without
-
-
-def test_run_and_report_say_so(example, ballscrew):
-    """Of the feed drive the band of inputs and laws ends below that of the inputs alone."""
-    feed = example.with_name("feed_drive.toml")
-    process = ballscrew("run", feed, "--band", "--samples", "256")
-    case = case_file.load(feed)
-    report = compute.band(case, compute.BandOptions(samples=256))
-    torque = report.band["screw_torque"]
-    assert torque.both.high < torque.parameters.high
-    largest = to_digits(torque.parameters.high, toward=1)
-    text = " ".join(process.stdout.split())
-    assert f"below the {largest} N m of the inputs alone" in text
-    assert f"for a motor take {largest} N m" in text
-    texts = [block.text for block in report_blocks.blocks(sheet(case, report), "band") if isinstance(block, Paragraph)]
-    assert any("of the inputs alone: most other laws give less torque than the model's" in text for text in texts)
 
 
 def test_only_given(drive, ballscrew):
@@ -198,14 +152,11 @@ def test_bad_input(options, expected, drive, ballscrew, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize(
-    "kind", ["svg", pytest.param("png", marks=pytest.mark.long), pytest.param("pdf", marks=pytest.mark.long)]
-)
-def test_pictures(kind, drive, ballscrew, tmp_path):
-    process = ballscrew("run", drive, "--band", "--samples", "64", "--to", f"band.{kind}")
+def test_picture(drive, ballscrew, tmp_path):
+    process = ballscrew("run", drive, "--band", "--samples", "64", "--to", "band.svg")
     assert process.returncode == 0, process.stderr
-    assert ("speed of the screw [rpm]" in words_of(tmp_path / f"band.{kind}")) == (kind != "png")
-    assert f"band.{kind}: 64 samples of 16 uncertain inputs" in process.stdout
+    assert "speed of the screw [rpm]" in words_of(tmp_path / "band.svg")
+    assert "band.svg: 64 samples of 16 uncertain inputs" in process.stdout
 
 
 @pytest.mark.slow
@@ -320,13 +271,10 @@ def test_a_fit_is_drawn_with_its_correlation(example, tmp_path, ballscrew):
     assert joint.names == ("friction.boundary_friction_coefficient", "viscosity")
     alone = fitted(example, tmp_path, FIT.partition("[calibration]")[0])
     case = case_file.load(alone)
-    independent = compute.band(case, compute.BandOptions(samples=1024, only_given=True)).band["screw_torque"].parameters
+    options = compute.BandOptions(samples=1024, only_given=True)
+    independent = compute.band(case, options).band["screw_torque"].parameters
     path = fitted(example, tmp_path)
-    found = (
-        compute.band(case_file.load(path), compute.BandOptions(samples=1024, only_given=True))
-        .band["screw_torque"]
-        .parameters
-    )
+    found = compute.band(case_file.load(path), options).band["screw_torque"].parameters
     assert found.high - found.low < 0.9 * (independent.high - independent.low)
     assert "friction" not in {law.slot for law in compute.alternatives(case_file.load(path))}
     assert ballscrew("run", path).returncode == 0

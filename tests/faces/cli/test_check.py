@@ -5,7 +5,6 @@ import json
 import math
 from pathlib import Path
 
-import openpyxl
 import pytest
 
 import ballscrew as bs
@@ -24,7 +23,6 @@ SCREWS = ROOT / "examples" / "screws.csv"
 NAME = "rexroth-40x10x6-6-double"
 ROW = bs.catalogue()[NAME]
 RPM = 2 * math.pi / 60
-NOTHING = compute.Options({}, [], None)
 
 #: The same screw with other headings, a decimal comma and semicolons.
 OWN = """\
@@ -148,13 +146,6 @@ def test_a_row_without_ratings_and_settings(ballscrew, tmp_path):
     assert "life 1000 million 720 million 72.0% passes" in text
 
 
-def test_calibrations_and_models(ballscrew):
-    plain = json.loads(ballscrew("check", NAME, "--json").stdout)["results"]["screw_torque"]
-    other = json.loads(ballscrew("check", NAME, "--json", "--model", "corrected").stdout)["results"]["screw_torque"]
-    assert other < plain
-    refused(ballscrew("check", NAME, "--calibration", "nonsense"), "calibration")
-
-
 # -- a case ---------------------------------------------------------------------------------------
 
 
@@ -230,27 +221,6 @@ def test_bad_rows_are_named_and_good_ones_kept(ballscrew, tmp_path):
     assert ballscrew("check", "--rows", "own.csv", "--keep-going").returncode == 2
 
 
-def test_rows_that_do_not_go_with_what_was_asked(ballscrew):
-    problem = 'A-50x20-3.5 (screws.csv row 5), --preload: a nut of type "single" has none (5 %)'
-    refused(ballscrew("check", "--rows", SCREWS, "--preload", "5 %"), problem)
-    process = ballscrew("check", "--rows", SCREWS, "--preload", "5 %", "--keep-going")
-    assert problem in process.stderr
-    assert process.stderr.splitlines()[-1] == "1 of 4 rows left out"
-    assert len(process.stdout.splitlines()) == 2 + 4
-    # what is wrong with all rows alike is said once
-    refused(ballscrew("check", "--rows", SCREWS, "--speed", "5 mm"), "--speed: wrong unit (5 mm)")
-
-
-def test_a_spreadsheet(ballscrew, tmp_path):
-    book = openpyxl.Workbook()
-    book.active.append(["model", "d0 [mm]", "Ph [mm]", "Dw [mm]", "turns", "nut"])
-    book.active.append(["A", 40, 10, 6.35, 4, "double"])
-    book.save(tmp_path / "own.xlsx")
-    process = ballscrew("check", "--rows", "own.xlsx", "--preload", "5 %")
-    assert process.returncode == 0, process.stderr
-    assert process.stdout.splitlines()[3].startswith("  A ")
-
-
 # -- what is wrong --------------------------------------------------------------------------------
 
 
@@ -304,14 +274,6 @@ def test_long_verdicts_go_on_below_themselves(ballscrew):
     assert words == "fails: diameter speed product; 4 of 8 judged"
 
 
-def test_help_is_there(ballscrew):
-    text = ballscrew("check", "--help").stdout
-    assert "exit code is 0 where a check fails" in " ".join(text.split())
-    for option in ("--rows", "--axial-load", "--preload", "--length", "--ends", "--calibration", "--keep-going"):
-        assert option in text
-    assert "{models}" not in text
-
-
 def test_a_missing_speed_is_named_by_its_option(ballscrew, tmp_path):
     tables = '[screw]\ncatalogue = "rexroth-40x10x6-6-double"\n[lubricant]\nviscosity = "0.1 Pa s"\n'
     (tmp_path / "case.toml").write_text(tables, encoding="utf-8")
@@ -328,17 +290,6 @@ def test_a_verdict_says_of_what_where_the_case_has_a_cycle(ballscrew):
 # -- sources ----------------------------------------------------------------------------------------
 
 
-def test_every_check_says_its_source(ballscrew):
-    """JSON has the kind for programs, and the words for people where the source was not read."""
-    rated = json.loads(ballscrew("check", EXAMPLE, "--json").stdout)["checks"]
-    assert {check["source"] for check in rated} <= {"read", "recalled", "estimate"}
-    by_name = {check["name"]: check for check in rated}
-    assert by_name["life"]["source"] == by_name["running_time"]["source"] == "recalled"
-    assert by_name["life"]["source_text"] == "by formulas as recalled"
-    for name in ("contact_pressure", "shaft_stress", "buckling", "critical_speed"):
-        assert (by_name[name]["source"], by_name[name]["source_text"]) == ("read", None)
-
-
 def test_a_recalled_check_that_passes_says_so(ballscrew):
     text = " ".join(ballscrew("check", NAME, "--set", "limits.running_time=100 h").stdout.split())
     assert "passes; by formulas as recalled: basic rating life L10" in text
@@ -346,17 +297,3 @@ def test_a_recalled_check_that_passes_says_so(ballscrew):
     assert "passes; by an estimate: DN value" in text
     fails = " ".join(ballscrew("check", NAME, "--set", "limits.running_time=1000000 h").stdout.split())
     assert "FAILS; by formulas as recalled: basic rating life L10" in fails
-
-
-def test_the_factor_for_accuracy_of_the_make(ballscrew):
-    """Half of the rigidity by ISO 3408-4 for Rexroth; for HIWIN none is known, and the range by grade is shown."""
-    rigidity = json.loads(ballscrew("check", NAME, "--json").stdout)["loads"]["axial_rigidity"]
-    assert rigidity["nut_corrected"] == pytest.approx(0.5 * rigidity["nut"], rel=1e-12)
-    assert rigidity["accuracy_factor_source"] == "estimate"
-    text = " ".join(ballscrew("check", NAME).stdout.split())
-    assert (
-        "factor for accuracy 0.5, of Rexroth's printed rigidities of double nuts (Rexroth2006): by an estimate" in text
-    )
-    other = " ".join(ballscrew("check", "hiwin-40-16k5").stdout.split())
-    assert "R_nu,ar, 0.5 of it, the least by accuracy grade (value unchecked)" in other
-    assert "factor for accuracy" not in other

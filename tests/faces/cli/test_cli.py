@@ -48,10 +48,15 @@ def test_json_is_the_python_result(name, model, example, ballscrew):
     document = json.loads(process.stdout)
     assert list(document) == ["inputs", "results", "units", "warnings", "verdicts", "checks", "provenance"]
     expected, found = paper_result(model), document["results"]
-    for key in ("screw_torque", "nut_torque", "ideal_torque", "drive_torque", "efficiency", "friction_power"):
-        assert found[key] == pytest.approx(float(getattr(expected, key)), rel=1e-12)
-    assert sum(found["contributions"].values()) == pytest.approx(found["screw_torque"], rel=1e-12)
-    assert found["screw"]["film_parameter"] == pytest.approx(float(expected.screw.film_parameter), rel=1e-12)
+    named = {key: value for key, value in found.items() if isinstance(value, bool | float) and hasattr(expected, key)}
+    assert {"screw_torque", "holding_torque", "efficiency", "friction_power", "rolling_share", "valid"} <= named.keys()
+    for key, value in named.items():
+        assert value == pytest.approx(float(getattr(expected, key)), rel=1e-12), key
+    assert found["contributions"] == pytest.approx({k: float(v) for k, v in expected.contributions.items()}, rel=1e-12)
+    for key, quadrant in expected.quadrants.items():
+        assert found["quadrants"][key] == pytest.approx(quadrant._asdict(), rel=1e-12)
+    for side in ("screw", "nut"):
+        assert found[side]["film_parameter"] == pytest.approx(float(getattr(expected, side).film_parameter), rel=1e-12)
     assert document["units"]["screw_torque"] == "N m"
     assert document["units"]["screw"]["film_parameter"] == "1"
     assert document["inputs"]["screw"]["lead"] == 0.005
@@ -60,15 +65,6 @@ def test_json_is_the_python_result(name, model, example, ballscrew):
     }  # fmt: skip
     assert "Olaru2005" in document["provenance"]["references"]
     assert [warning["id"] for warning in document["warnings"]] == ["model.power_balance"] * ("olaru2005" in name)
-
-
-def test_settings_change_the_case(example, ballscrew):
-    process = ballscrew(
-        "run", example, "--json", "--set", 'operation.axial_load="2 kN"', "--set", "model.ball_to_ball_force=0 N"
-    )
-    document = json.loads(process.stdout)
-    assert document["inputs"]["operation"]["axial_load"] == 2000.0
-    assert document["results"]["contributions"]["ball_to_ball"] == 0.0
 
 
 def test_no_load_is_legal_and_not_finite_is_null(example, ballscrew):
@@ -158,25 +154,6 @@ def test_at_rest(example, ballscrew):
     assert not re.search(r"nan|inf\b| -0 ", text)
 
 
-def test_json_of_the_reference_model(example, ballscrew):
-    document = json.loads(ballscrew("run", example, "--model", "reference", "--json").stdout)
-    r, found = paper_result(bs.FrictionModel.reference()), document["results"]
-    for name in ("holding_torque", "spin_moment", "lateral_force", "rolling_share"):
-        assert found[name] == pytest.approx(float(getattr(r, name)), rel=1e-12)
-    assert found["self_locking"] is False
-    assert found["valid"] is True
-    assert list(found["quadrants"]) == list(r.quadrants)
-    for name, quadrant in r.quadrants.items():
-        assert found["quadrants"][name] == pytest.approx(quadrant._asdict(), rel=1e-12)
-        assert document["units"]["quadrants"][name]["shaft_power"] == "W"
-    assert list(found["contributions"]) == list(MECHANISMS)
-    assert found["screw"]["spin_parameter"] == pytest.approx(float(r.screw.spin_parameter), rel=1e-12)
-    rest = ballscrew("run", example, "--model", "reference", "--json", "--set", "operation.screw_speed=0 rpm")
-    found = json.loads(rest.stdout, parse_constant=pytest.fail)["results"]
-    assert found["screw"]["elastic_regime_parameter"] is None
-    assert "-0.0" not in rest.stdout
-
-
 def test_users_get_the_reference_model(example, tmp_path, ballscrew):
     text = example.read_text(encoding="utf-8")
     case = tmp_path / "case.toml"
@@ -204,43 +181,6 @@ def test_every_example(path, tmp_path, ballscrew):
     assert uncommented != text
     document = json.loads(ballscrew("run", case, "--json").stdout)
     assert ", changed: " in document["provenance"]["model"]
-
-
-def test_sweep_of_the_reference_model(example, ballscrew):
-    outputs = ("screw_torque", "contribution_spin", "contribution_helix", "screw_spin_parameter", "holding_torque",
-               "self_locking", "rolling_share", "spin_moment", "nut_creep_speed", "valid")  # fmt: skip
-    wanted = [word for name in outputs for word in ("--output", name)]
-    axes = ["--vary", "axial_load=2, 4000 N", "--vary", "screw_speed=600 rpm"]
-    process = ballscrew("sweep", example, "--model", "reference", *axes, *wanted)
-    rows = list(csv.reader(io.StringIO(process.stdout)))
-    assert [heading.partition(" [")[0].replace(" ", "_") for heading in rows[0][2:]] == list(outputs)
-    found = dict(zip(outputs, map(float, rows[2][2:]), strict=True))
-    r = paper_result(bs.FrictionModel.reference())
-    assert found["contribution_spin"] == pytest.approx(float(r.contributions["spin"]), rel=1e-8)
-    assert found["contribution_helix"] == pytest.approx(float(r.contributions["helix"]), rel=1e-8)
-    assert found["holding_torque"] == pytest.approx(float(r.holding_torque), rel=1e-8)
-    assert (found["self_locking"], found["rolling_share"], found["valid"]) == (0, 1, 1)
-    assert found["nut_creep_speed"] == pytest.approx(1000 * float(r.nut.creep_speed), rel=1e-8)
-    light = dict(zip(outputs, map(float, rows[1][2:]), strict=True))
-    assert (light["self_locking"], light["valid"]) == (1, 0)
-    assert light["rolling_share"] < 1
-    assert process.stderr.startswith("warning  valid: 1 of 2 points")
-
-
-def test_a_grade_instead_of_a_viscosity(example, tmp_path, ballscrew):
-    text = example.read_text(encoding="utf-8")
-    start, end = text.index("[lubricant]"), text.index("[operation]")
-    case = tmp_path / "grade.toml"
-    case.write_text(
-        f'{text[:start]}[lubricant]\ngrade = "ISO VG 100"\ntemperature = "25 degC"\n{text[end:]}', encoding="utf-8"
-    )
-    document = json.loads(ballscrew("run", case, "--json").stdout)
-    oil = document["inputs"]["lubricant"]
-    assert (oil["grade"], oil["temperature"]) == ("ISO VG 100", 298.15)
-    assert oil["viscosity"] == bs.Lubricant.from_grade("ISO VG 100", 298.15).viscosity
-    assert "Jungnickel2010" in document["provenance"]["references"]
-    assert "oil ISO VG 100 at 25 degC: viscosity " in ballscrew("run", case).stdout
-    assert "@misc{Jungnickel2010" in ballscrew("cite", case).stdout
 
 
 def test_efficiency_table_on_the_terminal(example, ballscrew):
@@ -271,17 +211,6 @@ def test_what_is_not_finite_is_an_empty_cell_and_what_is_not_valid_is_said(examp
     assert process.stderr.startswith(
         "warning  valid: 2 of 4 points lie outside the model's validity (skid 2, elastic_regime 1)"
     )
-
-
-def test_too_much_pressure_is_said(example, ballscrew):
-    process = ballscrew("run", example, "--json", "--set", "operation.axial_load=5 MN")
-    document = json.loads(process.stdout)
-    assert not document["results"]["valid"]
-    (found,) = [record for record in document["warnings"] if record["id"] == "validity.contact_pressure"]
-    assert (found["subject"], found["unit"], found["limit"]) == ("maximum_pressure", "Pa", 4.2e9)
-    assert found["value"] == max(document["results"][side]["maximum_pressure"] for side in ("screw", "nut"))
-    assert found["value"] > found["limit"]
-    assert found["holds"] is False
 
 
 def test_axes_from_the_case_file(example, tmp_path, ballscrew):
@@ -335,6 +264,7 @@ def test_cite_names_what_the_model_uses(example, ballscrew):
     assert "HamrockDowson1977" in process.stdout
     assert "Johnson1985" not in process.stdout
     assert "Johnson1985" in ballscrew("cite", example, "--model", "corrected").stdout
+    assert "@misc{Jungnickel2010" in ballscrew("cite", ROOT / "examples" / "feed_drive.toml").stdout  # of its grade
 
 
 def test_schema_describes_the_example(example, ballscrew):
@@ -353,22 +283,6 @@ def test_schema_describes_the_example(example, ballscrew):
     ]
 
 
-@pytest.mark.slow
-def test_run_loads_nothing_heavy(example, ballscrew):
-    """A single point must not wait for xarray, pandas, matplotlib or a compiler."""
-    code = (
-        "import sys; from ballscrew.faces.cli import main as cli\n"
-        "sys.argv = ['ballscrew', 'run', sys.argv[1], '--json']\n"
-        "try: cli.main()\n"
-        "except SystemExit: pass\n"
-        # pint loads scipy itself where it is, and none of its parts
-        "names = ['xarray', 'pandas', 'matplotlib', 'scipy.special', 'numba', 'jax', 'dask']\n"
-        "sys.exit(' '.join(name for name in names if sys.modules.get(name) is not None) or 0)"
-    )
-    process = subprocess.run([sys.executable, "-c", code, example], capture_output=True, text=True, check=False)
-    assert process.returncode == 0, process.stderr
-
-
 def test_version_and_help(ballscrew):
     assert ballscrew("--version").stdout.strip() == f"ballscrew {bs.__version__}"
     text = ballscrew("--help").stdout
@@ -377,18 +291,6 @@ def test_version_and_help(ballscrew):
     for command in ("run", "compare", "sweep", "cite"):
         words = " ".join(ballscrew(command, "--help").stdout.split())
         assert "in place of that of the file: olaru2005, olaru2005-literal, corrected, reference (default)" in words
-
-
-def test_help_loads_nothing():
-    """Help is instant: not even NumPy is loaded."""
-    code = (
-        "import sys; from ballscrew.faces.cli import main as cli; sys.argv = ['ballscrew', '--help']\n"
-        "try: cli.main()\n"
-        "except SystemExit: pass\n"
-        "sys.exit(sorted({'numpy', 'pydantic', 'pint', 'rich.console'} & set(sys.modules)) or 0)"
-    )
-    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert process.returncode == 0, process.stderr
 
 
 def test_front_door():

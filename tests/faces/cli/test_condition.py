@@ -1,8 +1,6 @@
 """``ballscrew condition``: a table, logs; as words, JSON and picture; and what is refused."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -133,14 +131,6 @@ def test_refused_in_lines(ballscrew, arguments, words):
     assert done.stdout == ""
     assert "Traceback" not in done.stderr
     assert words in done.stderr
-
-
-@pytest.mark.slow
-def test_the_example_table_is_what_its_script_makes():
-    script = [sys.executable, str(EXAMPLES / "make_condition_table.py")]
-    done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode == 0, done.stderr
-    assert TABLE.read_text(encoding="utf-8").startswith("# SYNTHETIC")
 
 
 @pytest.mark.slow

@@ -97,34 +97,22 @@ def test_example_in_all_forms(ballscrew, tmp_path):
     found = json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
     assert {"inputs", "results", "units", "warnings", "verdicts", "checks", "provenance"} == set(found)
     results = found["results"]
-    for name in ("torque_rms", "torque_peak", "energy_drawn", "energy_returned", "energy_lost", "mean_load",
-                 "mean_speed", "life_revolutions", "cycle_time"):  # fmt: skip
-        assert results[name] > 0
-        assert name in found["units"]
-    assert results["torque_rms"] < results["torque_peak"]
+    # parts sum, and the cycle that is drawn is that of the numbers
     assert results["energy_drawn"] - results["energy_returned"] == pytest.approx(
         results["energy_lost"] + results["energy_of_process"], rel=1e-9
     )
-    assert sum(results["energy_lost_by"].values()) == pytest.approx(results["energy_lost"], rel=1e-12)
-    assert sum(results["torque_rms_by"].values()) == pytest.approx(results["torque_rms"], rel=1e-12)
-    assert sum(results["torque_peak_by"].values()) == pytest.approx(results["torque_peak"], rel=1e-12)
-    assert {"spin", "seals", "gravity", "acceleration_of_the_mass"} < set(results["torque_rms_by"])
-    assert results["brake"]["falls"] is True
-    assert [one["condition"] for one in results["brake"]["conditions"]] == ["as in the case", "cold", "hot", "dry"]
-    assert results["motor"]["suffices"] is True
+    for name in ("energy_lost", "torque_rms", "torque_peak"):
+        assert sum(results[f"{name}_by"].values()) == pytest.approx(results[name], rel=1e-12)
     cycle, curve = results["cycle"], results["motor"]["curve"]
-    assert (cycle["every"], cycle["time"][0]) == (1, 0.0)
     assert cycle["time"][-1] == pytest.approx(results["cycle_time"], rel=1e-12)
     by_cause = [sum(parts) for parts in zip(*cycle["torque_by"].values(), strict=True)]
     assert by_cause == pytest.approx(cycle["torque"], rel=1e-6, abs=1e-6 * results["torque_peak"])
     assert max(map(abs, cycle["torque"])) == pytest.approx(results["torque_peak"], rel=1e-12)
-    assert curve["speed"] == pytest.approx([rpm * math.pi / 30 for rpm in (0, 1500, 2500)], rel=1e-9)
     assert curve["peak_torque"] == pytest.approx([50.0, 50.0, 30.0], rel=1e-9)
     identities = [
         (record["id"], record["subject"]) for record in (*found["warnings"], *found["verdicts"], *found["checks"])
     ]
     assert len(set(identities)) == len(identities)
-    assert records(found, "checks")["check.critical_speed"]["holds"] is True
 
     with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
@@ -191,16 +179,6 @@ def test_the_vertical_example_of_thk(found):
     assert results["torque_rms"] == pytest.approx(0.743, rel=5e-3)
     assert results["rules"]["mechanics"]["torque_rms"] < results["torque_rms"]
     assert results["brake"]["falls"] is True
-
-
-def test_the_peak_of_a_rise_by_hand(found):
-    """One efficiency: m (a + g) P/(2 pi eta) upwards, and (2 - 1/eta) of the weight downwards."""
-    settings = ("model.name=constant-efficiency", "model.efficiency=0.8", "axis.screw_inertia=0 kg cm^2")
-    results = document(found(VERTICAL, *settings))["results"]
-    arm = 0.01 / (2 * math.pi)
-    assert results["rules"]["mechanics"]["torque_peak"] == pytest.approx(100 * (9.80665 + 1.5) * arm / 0.8, rel=1e-12)
-    lowered = next(phase for phase in results["phases"] if phase["name"] == "back: cruises")
-    assert lowered["torque_peak"] == pytest.approx(100 * 9.80665 * arm * (2 - 1 / 0.8), rel=1e-12)
 
 
 @pytest.mark.parametrize(

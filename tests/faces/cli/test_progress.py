@@ -3,8 +3,6 @@
 import os
 import pty
 import re
-import subprocess
-import sys
 import threading
 from importlib.util import find_spec
 from pathlib import Path
@@ -75,21 +73,6 @@ def test_a_search_says_what_it_costs_what_it_compiles_and_how_far_it_is(on_termi
 def test_what_takes_seconds_is_named_while_it_lasts(on_terminal, command, options):
     said = on_terminal(command, EXAMPLES / "service.toml", *options)
     assert f"{command} ━" in said
-
-
-def test_dask_is_loaded_for_a_scheduler_only():
-    """xarray would load it where it is installed: seconds after a boot."""
-    pytest.importorskip("dask", reason='needs dask, of the extra "cluster"')
-    code = """if True:
-        import atexit, sys
-        from ballscrew.faces.cli.main import main
-        atexit.register(lambda: print(*(name for name, one in sys.modules.items() if one and name.startswith("dask"))))
-        sys.argv = ["ballscrew", *sys.argv[1:]]
-        main()
-    """
-    words = ["sweep", str(EXAMPLES / "feed_drive.toml"), "--vary", "screw_speed=10:1500:3 rpm", "--json"]
-    done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == ""
 
 
 @pytest.mark.compiles

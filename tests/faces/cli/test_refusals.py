@@ -1,4 +1,4 @@
-"""Bad input is refused before the libraries are loaded that only an answer needs: they take most of the time."""
+"""What a command loads, which takes most of its time: bad input is refused before, and an answer needs few."""
 
 import json
 import subprocess
@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from support.commands import ROOT
 from support.fit_logs import PAPER
 
 RUN = """
@@ -15,10 +16,19 @@ sys.argv = ["ballscrew", *sys.argv[1:]]
 try:
     main()
 except SystemExit as end:
-    print(json.dumps([end.code, sorted({name.partition(".")[0] for name in sys.modules})]))
+    loaded = sorted(name for name, module in sys.modules.items() if module is not None)
+    print("\\n" + json.dumps([end.code or 0, loaded]))
 """
 #: Libraries that a bad case does without, and those that a bad log does without: pandas reads it.
 OF_ANSWERS = {"scipy", "xarray", "rich", "matplotlib"}
+
+
+def run(arguments, folder):
+    """A command in a process of its own: its exit code, what it has loaded, and what it said of errors."""
+    program = [sys.executable, "-c", RUN, *arguments]
+    done = subprocess.run(program, cwd=folder, capture_output=True, check=True, encoding="utf-8")
+    code, loaded = json.loads(done.stdout.splitlines()[-1])
+    return code, set(loaded), done.stderr
 
 
 @pytest.mark.slow
@@ -44,10 +54,30 @@ def test_a_refusal_loads_no_library_of_answers(case, log, arguments, words, with
     (tmp_path / "case.toml").write_text(case, encoding="utf-8")
     if log is not None:
         (tmp_path / "log.csv").write_text(log, encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-c", RUN, *arguments], cwd=tmp_path, capture_output=True, check=True, encoding="utf-8"
-    )
-    code, loaded = json.loads(done.stdout)
+    code, loaded, said = run(arguments, tmp_path)
     assert code == 2
-    assert words in done.stderr
-    assert not without & set(loaded)
+    assert words in said
+    assert not without & loaded
+
+
+DRIVE = str(ROOT / "examples" / "feed_drive.toml")
+HEAVY = {"xarray", "pandas", "matplotlib", "numba", "jax", "dask", "jinja2", "typst"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("arguments", "without"),
+    [
+        # pint loads scipy itself where it is, and none of its parts
+        (["run", DRIVE, "--json"], {*HEAVY, "scipy.special"}),
+        (["compare", DRIVE, "--json"], {*HEAVY, "scipy.optimize"}),
+        # dask is for a scheduler only; xarray would load it where it is installed: seconds after a boot
+        (["sweep", DRIVE, "--vary", "screw_speed=10:1500:3 rpm", "--json"], {"dask"}),
+        (["--help"], {"numpy", "pydantic", "pint", "rich.console"}),
+    ],
+    ids=["run", "compare", "sweep", "help"],
+)
+def test_an_answer_loads_what_it_needs(arguments, without, tmp_path):
+    code, loaded, said = run(arguments, tmp_path)
+    assert code == 0, said
+    assert not without & loaded

@@ -33,8 +33,6 @@ def test_all_forms(ballscrew, tmp_path):
     ("given", "message"),
     [
         (("--fault", "crack"), "--fault: unknown fault (crack)"),
-        (("--groove-deviation", "1 N"), "--groove-deviation: "),
-        (("--gap", "0"), "--gap: "),
         (("--set", "operation.screw_speed=0 rpm"), "operation.screw_speed: must not be zero"),
         (("--set", "nut.spacer_balls=true"), "nut.spacer_balls: part the loaded balls"),
         (("--to", "nut.txt"), "--to: unknown kind of file (nut.txt)"),

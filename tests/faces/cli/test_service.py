@@ -2,8 +2,6 @@
 
 import json
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -94,9 +92,6 @@ REFUSALS = {
     "no such log": (("service", NEW, "gone.csv", *QUICK), "gone.csv"),
     "no preload": (("service", WORN, "--case", EXAMPLES / "rig.toml"), "nut: has no preload (a single nut)"),
     "bodies": (("service", WORN, "--case", EXAMPLES / "catalogue_screw.toml"), "leave out [bodies] and [deviations]"),
-    "torque and log": (("service", WORN, "--torque", "1 N m", "--speed", "1 rpm", *QUICK), "--torque: is given beside"),
-    "no speed": (("service", "--torque", "1 N m", *QUICK), "--speed: missing"),
-    "speed alone": (("service", WORN, "--speed", "1 rpm", *QUICK), "--speed: is for a torque without a log"),
     "unit": (("service", "--torque", "1 N", "--speed", "1 rpm", *QUICK), "--torque: "),
     "huge": (("service", "--torque", "1e6 N m", "--speed", "1 rpm", *QUICK), "--torque: no preload gives it"),
     "tolerance": (("service", WORN, "--tolerance", "2", *QUICK), "--tolerance: must lie between 0 and 1 (2.0)"),
@@ -127,12 +122,3 @@ def test_a_faulty_log_is_named(ballscrew, tmp_path):
     done = ballscrew("service", WORN, bad, *QUICK)
     assert done.returncode == 2
     assert done.stderr.startswith("bad.csv: ")
-
-
-@pytest.mark.slow
-def test_the_example_logs_are_what_their_script_makes():
-    script = [sys.executable, str(EXAMPLES / "make_service_logs.py")]
-    done = subprocess.run(script, capture_output=True, encoding="utf-8", check=False)
-    assert done.returncode == 0, done.stderr
-    for path in (NEW, WORN):
-        assert path.read_text(encoding="utf-8").startswith("# SYNTHETIC")

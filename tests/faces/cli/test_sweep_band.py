@@ -28,26 +28,6 @@ def swept(case, vary, outputs=("screw_torque", "efficiency"), options=OPTIONS, d
 
 
 @pytest.mark.slow
-def test_the_document_has_low_and_high_beside_each_output(ballscrew):
-    """As the command of one point says, which has the same samples."""
-    options = ("--band", "--samples", "128", "--json")
-    process = ballscrew("sweep", DRIVE, "--vary", "screw_speed=0, 300, 1500 rpm", *options)
-    found = json.loads(process.stdout)
-    for place, speed in enumerate((0, 300, 1500)):
-        alone = json.loads(ballscrew("run", DRIVE, *options, "--set", f"operation.screw_speed={speed} rpm").stdout)
-        for name, output in found["outputs"].items():
-            if name == "valid":
-                assert output["low"][place] is output["high"][place] is True
-                continue
-            one = alone["band"][name]
-            for end in ("low", "high"):
-                assert output[end][place] == pytest.approx(one[end], rel=1e-9), (name, end, speed)
-            assert output["values"][place] == pytest.approx(one["value"], rel=1e-9)
-    assert found["band"] == {"level": 0.95, "samples": 128, "seed": 0}
-    assert set(found["outputs"]) == {*sweep.BAND_OUTPUTS, "valid"}
-
-
-@pytest.mark.slow
 def test_the_document_has_narrower_intervals_of_the_same_samples(ballscrew):
     """Those of a band of their level; a file has none of them."""
     vary = ("--vary", "screw_speed=300, 1500 rpm", "--output", "screw_torque", "--samples", "128")
@@ -116,15 +96,6 @@ def test_points_that_cannot_be_have_no_band_and_the_samples_are_counted():
     assert not found["valid_high"][0]
     assert found["invalid_share"].to_numpy()[0] == 1 > found["invalid_share"].to_numpy()[1]
     assert told[-1] == (2 * 64, 2 * 64)
-
-
-def test_nothing_uncertain_is_a_band_of_other_laws_alone():
-    case = case_file.load(DRIVE)
-    alone = swept(case, ["screw_speed=100, 600 rpm"], options=BandOptions(samples=64, only_given=True))
-    for place, speed in enumerate((100, 600)):
-        there = case_file.load(DRIVE, [f"operation.screw_speed={speed} rpm"])
-        one = compute.band(there, BandOptions(samples=64, only_given=True)).band["screw_torque"]
-        assert [float(alone[f"screw_torque_{end}"][place]) for end in ("low", "high")] == pytest.approx(list(one.both))
 
 
 @pytest.mark.slow

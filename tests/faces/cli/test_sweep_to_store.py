@@ -6,11 +6,8 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
-import numpy as np
 import pytest
-import xarray as xr
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
@@ -18,7 +15,6 @@ from ballscrew.questions.sweep import compute
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
-ROOT = Path(__file__).parents[3]
 AXES = ("--vary", "axial_load=10:4000:30 N", "--vary", "screw_speed=1:1000:40 rpm")
 #: A sweep that nobody waits for.
 ENDLESS = (
@@ -39,37 +35,6 @@ def files(folder):
 
 
 @pytest.mark.slow
-def test_a_store_holds_what_netcdf_does(example, ballscrew, tmp_path):
-    told = {}
-    for kind in ("zarr", "nc"):
-        process = ballscrew("sweep", example, *AXES, "--to", f"map.{kind}")
-        assert process.returncode == 0, process.stderr
-        told[kind] = process.stdout.replace(f".{kind}", ""), process.stderr
-    assert told["zarr"] == told["nc"]
-    assert told["zarr"][0] == "map: 30 x 40 points, 11 outputs, model olaru2005\n"
-    store = xr.open_zarr(tmp_path / "map.zarr", chunks=None).load()
-    with xr.open_dataset(tmp_path / "map.nc", engine="h5netcdf") as netcdf:
-        assert set(store.variables) == set(netcdf.variables)
-        for name, variable in netcdf.variables.items():
-            assert np.array_equal(store[name], variable.astype(store[name].dtype), equal_nan=True), name
-            assert store[name].attrs["units"] == variable.attrs["units"]
-        assert set(netcdf.attrs) == set(store.attrs)
-
-
-@pytest.mark.slow
-def test_what_cannot_be_built_is_said_from_the_store(ballscrew, tmp_path):
-    drive = ROOT / "examples" / "feed_drive.toml"
-    axes = ("--vary", "temperature=20:60:5 degC", "--vary", "lead=10, 5 mm")
-    said = [ballscrew("sweep", drive, *axes, "--to", name).stderr for name in ("map.zarr", "map.nc")]
-    assert "empty cells: 5 points, the first at temperature 20 degC, lead 5 mm: screw.ball_diameter" in said[0]
-    assert said[0] == said[1]
-    store = xr.open_zarr(tmp_path / "map.zarr", chunks=None)
-    assert store["temperature"].attrs["units"] == "K"
-    assert store["viscosity"].dims == ("temperature",)
-    assert store.attrs["lubricant_grade"] == "ISO VG 100"
-
-
-@pytest.mark.slow
 def test_a_complete_store_is_left_as_it_is(example, ballscrew, tmp_path):
     first = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
     before = {name: (tmp_path / "map.zarr" / name).stat().st_mtime_ns for name in files(tmp_path / "map.zarr")}
@@ -81,31 +46,8 @@ def test_a_complete_store_is_left_as_it_is(example, ballscrew, tmp_path):
     fault(other, "sweep.to: holds another sweep (lubricant viscosity 0.1, not 0.2) · choose another name, or remove")
 
 
-@pytest.mark.slow
-def test_damage_is_said_and_repaired(example, ballscrew, tmp_path):
-    first = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
-    before = files(tmp_path / "map.zarr")
-    chunk = tmp_path / "map.zarr" / "efficiency" / "c" / "0" / "0"
-    content = chunk.read_bytes()
-    chunk.write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
-    again = ballscrew("sweep", example, *AXES, "--to", "map.zarr", "--verify")
-    path = tmp_path / "map.zarr"
-    said = f"{path}: 1 block is computed again: efficiency/c/0/0 has another checksum\n"
-    assert (again.returncode, again.stdout, again.stderr) == (0, first.stdout, said + first.stderr)
-    assert files(path) == before
-    last = ballscrew("sweep", example, *AXES, "--to", "map.zarr", "--verify")
-    assert last.stderr.startswith(f"{path}: complete already, all checksums hold, nothing was computed\n")
-
-
 def test_options_of_a_store_need_one(example, ballscrew):
     fault(ballscrew("sweep", example, "--to", "map.nc", "--verify"), "--verify: needs a store · add --to map.zarr")
-
-
-def test_a_folder_of_others_is_left_as_it_is(example, ballscrew, tmp_path):
-    (tmp_path / "map.zarr").mkdir()
-    (tmp_path / "map.zarr" / "thesis.tex").touch()
-    fault(ballscrew("sweep", example, *AXES, "--to", "map.zarr"), "sweep.to: is there and is not the store of a sweep")
-    assert list(files(tmp_path / "map.zarr")) == ["thesis.tex"]
 
 
 def test_the_memory_is_no_limit_of_a_store(example, tmp_path):
@@ -118,12 +60,6 @@ def test_the_memory_is_no_limit_of_a_store(example, tmp_path):
     with pytest.raises(InputError, match="count from 1 to 10,000,000"):
         compute.plan(case, ["axial_load=10:4000:10000001 N"], [], tmp_path / "map.zarr")
     assert not list(tmp_path.iterdir())
-
-
-def test_without_zarr_the_extra_is_named(example, tmp_path, monkeypatch):
-    monkeypatch.setattr(compute.importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(InputError, match=r'--to: needs zarr .* pip install "ballscrew\[data\]"'):
-        compute.plan(case_file.load(example), [], [], tmp_path / "map.zarr")
 
 
 @pytest.mark.slow
@@ -189,18 +125,3 @@ def test_a_scheduler_that_does_not_answer(example, ballscrew, tmp_path):
         process = ballscrew("sweep", example, "--to", "map.zarr", "--scheduler", address)
         fault(process, f"--scheduler: no scheduler answers ({address}", "such as tcp://host:8786")
     assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.slow
-def test_a_sweep_on_a_cluster(example, ballscrew, tmp_path):
-    distributed = pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
-    there = {"host": "127.0.0.1", "protocol": "tcp://", "scheduler_port": 0, "dashboard_address": ":0"}
-    there |= {"n_workers": 1, "threads_per_worker": 2, "processes": False, "local_directory": tmp_path / "scratch"}
-    with distributed.LocalCluster(**there) as cluster:
-        address = cluster.scheduler_address
-        process = ballscrew("sweep", example, *AXES, "--to", "there.zarr", "--scheduler", address)
-    assert process.returncode == 0, process.stderr
-    here = ballscrew("sweep", example, *AXES, "--to", "here.zarr")
-    assert process.stderr == here.stderr
-    assert process.stdout == here.stdout.replace("here", "there")
-    assert files(tmp_path / "here.zarr") == files(tmp_path / "there.zarr")

@@ -116,30 +116,6 @@ def test_the_answer_names_what_makers_say(tmp_path, ballscrew):
         assert "these are rows of Rexroth, and the make of this nut is not known" in said
 
 
-def test_the_rule_of_the_make_comes_first(tmp_path, ballscrew):
-    """Of a table of one's own by its column, else by the row of the catalogue; with a verdict where it is far off."""
-    table = tmp_path / "own.csv"
-    table.write_text(OWN, encoding="utf-8")
-    for name, label, rule in (("A", "THK (JIS B 1192)", "jis"), ("B", "Rexroth", "rexroth")):
-        found = json.loads(ballscrew("check", name, "--rows", table, "--json").stdout)
-        results = found["results"]
-        assert results["rule_of_make"] == rule
-        ratio = results["preload_drag_of_balls"] / results["rules"][rule]
-        told = [one for one in found["verdicts"] if one["id"] == "verdict.rule_of_maker"]
-        assert [one["value"] for one in told] == pytest.approx([ratio] * (not 0.8 <= ratio <= 1.25))
-        text = [" ".join(line.split()) for line in ballscrew("check", name, "--rows", table).stdout.splitlines()]
-        rules = [line for line in text if line.startswith("by the rule of")]
-        assert rules[0].startswith(f"by the rule of {label}, its maker; model / rule {ratio:.2f}")
-        assert len(rules) == 3
-        assert "its maker" not in " ".join(rules[1:])
-
-
-def test_a_nut_without_preload_has_no_rules(ballscrew):
-    found = json.loads(ballscrew("run", AXIS, "--set", "nut.preload=0 N", "--json").stdout)
-    assert {"rules", "rule_of_make", "preload_drag_of_balls"} & found["results"].keys() == set()
-    assert "by the rule of" not in ballscrew("run", AXIS, "--set", "nut.preload=0 N").stdout
-
-
 @pytest.mark.parametrize("command", ["run", "check"])
 def test_what_of_it_are_seals_stands_below_it(ballscrew, command):
     lines = [" ".join(line.split()) for line in ballscrew(command, AXIS).stdout.splitlines()]

@@ -1,6 +1,7 @@
 """The drawing of the ball: its geometry against the numbers, its slip against the integral, its rules as SVG."""
 
 import dataclasses
+import functools
 import math
 import os
 import re
@@ -51,13 +52,19 @@ CASES = {
 }
 
 
+@functools.cache
 def answered(name):
     file, settings = CASES[name]
     return run(case_file.load(EXAMPLES / file, settings))
 
 
+@functools.cache
+def drawing_of(name):
+    return drawing(answered(name))
+
+
 def tree_of(name):
-    return ElementTree.fromstring(drawing(answered(name)))
+    return ElementTree.fromstring(drawing_of(name))
 
 
 def texts(tree):

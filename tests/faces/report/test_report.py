@@ -74,16 +74,12 @@ LEAST_FILLED = 0.3
 
 CASES = {
     **{name.removesuffix(".toml"): (name, ()) for name in EXAMPLES},
-    "corrected": ("olaru2005.toml", ('model.name="corrected"',)),
     "at rest": ("feed_drive.toml", ('operation.screw_speed="0 rpm"',)),
-    "nut at rest": ("catalogue_screw.toml", ('operation.screw_speed="0 rpm"',)),
     "without load": ("feed_drive.toml", ('operation.axial_load="0 N"',)),
-    "nut without load": ("catalogue_screw.toml", ('operation.axial_load="0 N"',)),
     "nothing": ("feed_drive.toml", ('operation.axial_load="0 N"', 'operation.screw_speed="0 rpm"')),
     "oversize balls": ("feed_drive.toml", _OVERSIZE),
     "calibrated": ("feed_drive.toml", ('model.calibration="rexroth-2006"',)),
     "overloaded": ("feed_drive.toml", ('operation.axial_load="900 kN"',)),
-    "skids": ("feed_drive.toml", ('operation.axial_load="1 N"', 'operation.screw_speed="5000 rpm"')),
     "all that can be said": (
         "catalogue_screw.toml",
         (
@@ -495,13 +491,11 @@ def test_a_project_and_a_date_stand_on_it_only_if_somebody_says_so(content):
 LONG = (
     "at rest",
     "axis",
-    "corrected",
+    "calibrated",
     "feed_axis",
-    "nut at rest",
-    "nut without load",
     "oversize balls",
+    "rig",
     "service",
-    "skids",
     "vertical_axis",
     "xjtu",
 )
@@ -701,16 +695,6 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch, tmp_path):
             sharing.report(case, tmp_path / f"x.{kind}", CaseOptions(), ReportOptions())
 
 
-def test_a_run_does_not_wait_for_what_only_a_report_needs():
-    program = (
-        "import atexit, sys; from ballscrew.faces.cli import main as cli;"
-        "atexit.register(lambda: print([name for name in ('matplotlib', 'jinja2', 'typst') if name in sys.modules]));"
-        "cli.main()"
-    )
-    command = [sys.executable, "-c", program, "run", str(ROOT / "examples" / "feed_drive.toml"), "--json"]
-    assert subprocess.run(command, capture_output=True, check=True, text=True).stdout.endswith("}\n[]\n")
-
-
 # -- its parts ------------------------------------------------------------------------------------
 
 
@@ -748,13 +732,6 @@ def test_columns_are_alike_in_length_and_keep_the_order():
     assert [table.title for table in columns.left] == ["10"]
 
 
-@pytest.mark.parametrize(
-    ("number", "words"), [(14494.0, "14490 N m"), (1e9, "1000 million N m"), (-0.0, "0 N m"), (float("nan"), "–")]
-)
-def test_values_are_written_without_exponents_where_people_would(number, words):
-    assert value(number, _TORQUE) == words
-
-
 @pytest.mark.slow
 def test_pictures_say_what_they_show(content):
     pictures = [block for section in content.sections for block in section.blocks if isinstance(block, Picture)]
@@ -776,7 +753,8 @@ def test_heat_that_cannot_be_computed_says_why():
 
 def test_heat_is_that_of_the_command():
     report = warmed_up(case_of("warm_up"), contents.HOURS)
-    words = str(next(section for section in content_of("warm_up").sections if section.title == "As it warms up"))
+    # one part alone, here and below: a report of a motion takes ten seconds
+    words = str(contents._heat(case_of("warm_up")))
     for record in verdicts(report):
         assert record.text[1:] in words
     assert all(line in words for line in report.assumed)
@@ -786,7 +764,7 @@ def test_heat_is_that_of_the_command():
 
 def test_stiffness_is_that_of_the_command():
     """A case with an axis, its motion and an installation has what ``ballscrew axis`` prints of it."""
-    section = next(s for s in content_of("vertical_axis").sections if s.title == "Stiffness over the stroke")
+    (section,) = contents._stiffness(case_of("vertical_axis"))
     found = chain_of(axis_load(ROOT / "examples" / "vertical_axis.toml", []))
     words = str(section.blocks)
     for record in found.verdicts:
@@ -800,7 +778,7 @@ def test_stiffness_is_that_of_the_command():
 
 
 def test_a_motion_without_an_installation_has_no_stiffness():
-    assert not [s for s in content_of("warm_up").sections if s.title.startswith("Stiffness")]
+    assert contents._stiffness(case_of("warm_up")) == []
 
 
 def test_a_cycle_is_answered_first():
@@ -820,16 +798,15 @@ def test_a_cycle_is_answered_first():
 
 def test_one_verdict_where_a_cycle_is_given():
     """The operating point of this axis would wear it out, its cycle does not: the report judges the cycle alone."""
-    sections = content_of("vertical_axis").sections
-    verdict, table = next(s for s in sections if s.title.startswith("Checks")).blocks
+    case = case_of("vertical_axis")
+    found = contents._checks(case, run(case), duty(case))
+    verdict, table = found.blocks
     assert verdict.text == "Over the cycle: passes all checks."
     verdicts = {row[0]: row[4].partition(":")[0] for row in table.rows}
     assert {words.partition(";")[0] for words in verdicts.values()} == {"passes"}
     assert verdicts["life"] == "passes; by formulas as recalled"
     assert verdicts["buckling"] == "passes"
-    cycle = next(s for s in sections if s.title.startswith("Over a cycle"))
-    assert "fails" not in cycle.blocks[0].text
-    assert "FAILS" not in html_bytes(content_of("vertical_axis")).decode()
+    assert "fails" not in str(found.blocks).casefold()
 
 
 @pytest.mark.slow

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import asyncio
+import concurrent.futures
+import contextlib
 import json
 import os
 import re
 import signal
 import tempfile
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Coroutine, Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -17,6 +20,7 @@ import psutil
 import pytest
 from playwright.sync_api import ConsoleMessage, Error, Page, Request
 
+from ballscrew.faces.web.server import application
 from support.commands import Commands
 
 ROOT = Path(__file__).parents[3]
@@ -95,6 +99,22 @@ class Server:
         return self.errors.read()
 
 
+def run_scene(scene: Coroutine[Any, Any, Any]) -> Any:
+    """Run in a thread of its own: an open browser keeps a loop running in the main thread of this process."""
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, asyncio.wait_for(scene, TIME_LIMIT)).result()
+
+
+@contextlib.contextmanager
+def asking(**options: Any) -> Iterator[httpx.Client]:
+    """Asks the application itself, which is made with these options: a server takes a second to start."""
+    testclient = pytest.importorskip("starlette.testclient", reason="needs httpx, of the extra test")
+    with testclient.TestClient(
+        application(**options), base_url="http://localhost", raise_server_exceptions=False
+    ) as client:
+        yield client
+
+
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     """Of a file whose tests are all long, those are made while it is collected, which takes seconds."""
     return (collection_path.name == "test_fields_of_a_case.py" and config.getoption("markexpr") == "not long") or None
@@ -162,6 +182,8 @@ class Visit:
         self.complaints: list[str] = []
         #: Complaints that belong to what is tested: that of the browser about an answer of this status.
         self.expected: tuple[str, ...] = ()
+        #: By how much what it shows has moved while it was loaded.
+        self.shift = 0.0
         self._listeners = {"request": self._asked, "console": self._heard, "pageerror": self._failed}
         for event, listener in self._listeners.items():
             page.on(event, listener)
@@ -254,6 +276,14 @@ class Visit:
     def id(field: str) -> str:
         return f"#f-{field.replace('.', '-')}"
 
+    def values(self) -> dict[str, str]:
+        """What every field shows."""
+        fields = "[...document.querySelectorAll('#form input')]"
+        return self.page.evaluate(f"Object.fromEntries({fields}.map((one) => [one.id, one.value]))")
+
+    def value(self, field: str) -> str:
+        return self.page.locator(self.id(field)).input_value()
+
     def text(self, selector: str) -> str:
         """Text as it is read: a blank before a unit does not break a line."""
         return self.page.locator(selector).inner_text().replace("\u00a0", " ")
@@ -309,6 +339,29 @@ def new_page(browser) -> Page:
     return page
 
 
+@pytest.fixture(scope="module")
+def opened(browser, server, request):
+    """A page that stays open, where its module says: its address leads on. Refusals are what is looked at."""
+    page = new_page(browser)
+    page.set_viewport_size({"width": 1360, "height": 900})
+    page.add_init_script(getattr(request.module, "AT_FIRST", ""))
+    here = Visit(page, server.address).open(request.module.START)
+    if "band=0" not in request.module.START:
+        page.wait_for_selector("#band-words >> text=95 %")
+    here.shift = page.evaluate("window.shift ?? 0")  # before anybody leads it on
+    yield here
+    here.leave()
+    page.context.close()
+    assert not [line for line in here.complaints if "status of 422" not in line and "status of 429" not in line]
+    assert here.outside() == []
+
+
+@pytest.fixture
+def go(opened):
+    """Lead the page to another case without loading it again."""
+    return opened.lead
+
+
 @pytest.fixture
 def visit(browser, pages, server):
     """Visitors of the page; afterwards nothing was complained of, and nothing was asked from elsewhere."""
@@ -321,11 +374,13 @@ def visit(browser, pages, server):
         height: int = 900,
         scheme: Literal["dark", "light"] = "light",
         motion: Literal["no-preference", "reduce"] = "no-preference",
+        expected: tuple[str, ...] = (),
     ) -> Visit:
         page = pages.pop() if pages else new_page(browser)
         page.set_viewport_size({"width": width, "height": height})
         page.emulate_media(media="screen", color_scheme=scheme, reduced_motion=motion)
         visits.append(Visit(page, address))
+        visits[-1].expected = expected
         return visits[-1]
 
     yield one

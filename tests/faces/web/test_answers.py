@@ -6,6 +6,9 @@ from urllib.parse import urljoin
 import pytest
 
 from ballscrew.evidence.validation.sets import SETS
+from ballscrew.faces.web import api
+
+from .conftest import asking
 
 STRICT = ("content-security-policy", "x-content-type-options", "referrer-policy", "cross-origin-opener-policy")
 
@@ -73,27 +76,14 @@ def test_head_of_the_api(server, path):
 
 def test_a_defect_is_said(monkeypatch):
     """Of the server, with the same headers; the server writes where it was, and the answer does not."""
-    import asyncio
-    import concurrent.futures
-
-    import httpx
-
-    from ballscrew.faces.web import api
-    from ballscrew.faces.web.server import application
 
     def wrong(*_):
         raise ArithmeticError("secret")
 
     monkeypatch.setattr(api, "kept", wrong)
 
-    async def ask():
-        transport = httpx.ASGITransport(application(), raise_app_exceptions=False)
-        async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
-            return await client.get("/api/v1/schema")
-
-    # in a thread of its own: a browser that is open in this process keeps a loop running in the first one
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:
-        found = pool.submit(lambda: asyncio.run(ask())).result()
+    with asking() as client:
+        found = client.get("/api/v1/schema")
     assert found.status_code == 500
     assert found.headers["content-type"] == "application/problem+json"
     assert all(found.headers[name] for name in STRICT)

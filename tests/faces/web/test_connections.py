@@ -1,7 +1,6 @@
 """Bytes that are no request, given to a connection without a socket."""
 
 import asyncio
-import concurrent.futures
 import unittest.mock
 
 import pytest
@@ -12,9 +11,11 @@ import uvicorn
 from ballscrew.faces.web import connections, server
 from ballscrew.faces.web.limits import HEADERS
 
+from .conftest import run_scene
+
 HEAD = b"%s /api/v1/run HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
 #: Headers that every response has.
-SECURITY = [name.lower() for name in (*HEADERS, "Cache-Control")]
+SECURITY = [name.lower() for name in (*HEADERS, "Content-Security-Policy", "Cache-Control")]
 
 
 def responses(*pieces):
@@ -42,8 +43,7 @@ def responses(*pieces):
         protocol.connection_lost(None)
         return protocol.logger.error.mock_calls
 
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:  # the first thread may have a loop, of a browser
-        errors = pool.submit(asyncio.run, scene()).result()
+    errors = run_scene(scene())
     assert transport.close.called
     return bytes(written), errors
 
@@ -62,12 +62,25 @@ def test_a_request_with_an_invalid_body_gets_one_response(method, at_once):
 
 
 @pytest.mark.parametrize(
-    "text", [b"nonsense\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n", b"\x16\x03\x01", HEAD % b"PUT" + b"zz\r\n"]
+    "text",
+    [
+        b"nonsense\r\n\r\n",
+        b"GET / HTTP/1.1\r\n\r\n",
+        b"\x16\x03\x01",
+        HEAD % b"PUT" + b"zz\r\n",
+        b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"x" * connections.LONGEST_HEAD,
+        b"GET /" + b"x" * connections.LONGEST_HEAD,
+        b"GET / HTTP/1.1\r\nHost: localhost\r\nHost: other\r\n\r\n",
+        b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: x\r\n\r\n",
+        b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n",
+    ],
+    ids=["nonsense", "no host", "TLS", "body", "long header", "long address", "two hosts", "bad length", "two lengths"],
 )
 def test_what_is_no_request_is_refused_with_the_headers_of_all_responses(text):
     written, errors = responses(text, b"\r\n\r\n") if text[:1] == b"\x16" else responses(text)
     assert errors == []
     assert written.startswith(b"HTTP/1.1 400 ")
+    assert b"application/problem+json" in written
     lines = written.partition(b"\r\n\r\n")[0].decode().splitlines()[1:]
     names = [line.partition(":")[0].lower() for line in lines]
     assert [name for name in SECURITY if names.count(name) != 1] == []

@@ -15,8 +15,6 @@ import zipfile
 import pytest
 
 from ballscrew.faces.web import limits
-from ballscrew.faces.web.connections import LONGEST_HEAD
-from ballscrew.faces.web.limits import HEADERS
 from support.short_timeouts import READ_TIMEOUT
 
 from .conftest import ROOT
@@ -337,33 +335,6 @@ def raw(server, text, wait=120.0):
         while piece := connection.recv(65_536):
             found += piece
         return found
-
-
-#: Headers that every response has.
-SECURITY = [name.lower() for name in (*HEADERS, "Content-Security-Policy")]
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"x" * LONGEST_HEAD,
-        b"GET /" + b"x" * LONGEST_HEAD,
-        b"nonsense\r\n\r\n",
-        b"GET / HTTP/1.1\r\n\r\n",
-        b"GET / HTTP/1.1\r\nHost: localhost\r\nHost: other\r\n\r\n",
-        b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: x\r\n\r\n",
-        b"POST /api/v1/run HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n",
-    ],
-    ids=["long header", "long address", "nonsense", "no host", "two hosts", "bad length", "two lengths"],
-)
-def test_what_is_no_request(server, text):
-    found = raw(server, text)
-    assert found.startswith(b"HTTP/1.1 400")
-    assert b"application/problem+json" in found
-    expected = server.get("schema").headers
-    lines = found.partition(b"\r\n\r\n")[0].decode().splitlines()[1:]
-    headers = {name.lower(): value.strip() for name, _, value in (line.partition(":") for line in lines)}
-    assert {name: headers.get(name) for name in SECURITY} == {name: expected[name] for name in SECURITY}
 
 
 @pytest.mark.parametrize(

@@ -1,22 +1,21 @@
 """Jobs: long requests in processes of their own."""
 
 import asyncio
-import concurrent.futures
 import errno
 import subprocess
 import sys
 import threading
 import time
 
-import httpx
 import psutil
 import pytest
 
 from ballscrew.faces.web import jobs as jobs_of
-from ballscrew.faces.web import server
 from ballscrew.faces.web.job_process import Answer, Computed, Progress, Row
 from ballscrew.faces.web.jobs import Jobs
 from ballscrew.faces.web.problems import Refused
+
+from .conftest import asking, run_scene
 
 pytestmark = pytest.mark.slow
 
@@ -27,12 +26,6 @@ ENDLESS = {
     "need": {"force": "2 kN", "feed": "15 m/min", "preload": [f"{share} %" for share in range(1, 25)]},
     "words": "", "complete": True,
 }  # fmt: skip
-
-
-def run_scene(scene):
-    """Run in a thread of its own: an open browser keeps a loop running in the main thread of this process."""
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:
-        return pool.submit(asyncio.run, scene).result()
 
 
 def started(server, address, body, **query):
@@ -150,18 +143,12 @@ def test_jobs_end_with_the_server(start):
 def test_without_forks(paper):
     """As on other systems: the process starts from nothing."""
 
-    async def scene():
-        application = server.application()
-        transport = httpx.ASGITransport(application)
-        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=LONG) as client:
-            first = (await client.post("/api/v1/jobs/run", json={"case": paper})).json()
-            while (found := (await client.get(f"/api/v1/jobs/{first['id']}?wait=5")).json())["state"] != "finished":
-                assert found["state"] in ("waiting", "running")
-            answer = await client.get(f"/api/v1/jobs/{first['id']}/answer")
-            return answer.json(), (await client.post("/api/v1/run", json={"case": paper})).json()
-
-    answer, waited = run_scene(scene())
-    assert answer == waited
+    with asking() as client:
+        name = client.post("/api/v1/jobs/run", json={"case": paper}).json()["id"]
+        while (found := client.get(f"/api/v1/jobs/{name}?wait=5").json())["state"] != "finished":
+            assert found["state"] in ("waiting", "running")
+        answer = client.get(f"/api/v1/jobs/{name}/answer").json()
+        assert answer == client.post("/api/v1/run", json={"case": paper}).json()
 
 
 #: The first fork of a job fails, and the others do not; the second time fewer pipes arrive than were sent.

@@ -1,13 +1,11 @@
 """All answers about a case in one request: those of the addresses, line by line, of a case that is built once."""
 
 import asyncio
-import concurrent.futures
 import json
 import threading
 import tomllib
 from pathlib import Path
 
-import httpx
 import pytest
 
 from ballscrew.cases.case_files import case_file
@@ -17,6 +15,8 @@ from ballscrew.faces.web.request_queue import OUT_OF_TIME, RequestQueue
 from ballscrew.questions.curves import curves
 from ballscrew.questions.run import compute
 from support.documents import assert_same
+
+from .conftest import asking, run_scene
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 #: Seconds of a request, also on a busy machine.
@@ -88,12 +88,6 @@ def test_too_many_designs_are_refused(server, paper):
     assert found.json()["faults"][0]["where"] == "request.beside"
 
 
-def run_scene(scene):
-    """Run in a thread of its own: an open browser keeps a loop running in the main thread of this process."""
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:
-        pool.submit(asyncio.run, asyncio.wait_for(scene, LONG)).result()
-
-
 def test_a_case_is_built_and_run_once(monkeypatch, paper):
     case = {**paper, "nut": {"type": "single"}}
     built, ran = [], []
@@ -103,13 +97,9 @@ def test_a_case_is_built_and_run_once(monkeypatch, paper):
     # as a server that has answered nothing yet
     documents._runs.clear()
 
-    async def scene():
-        transport = httpx.ASGITransport(server.application(requests=RequestQueue(time_limit=LONG)))
-        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=LONG) as client:
-            found = await client.post("/api/v1/answers", json={"case": case})
-            assert len(found.text.splitlines()) == 6
-
-    run_scene(scene())
+    with asking(requests=RequestQueue(time_limit=LONG)) as client:
+        found = client.post("/api/v1/answers", json={"case": case})
+    assert len(found.text.splitlines()) == 6
     assert (len(built), len(ran)) == (1, 1)
 
 
@@ -164,15 +154,9 @@ def test_a_curve_out_of_time_comes_with_what_goes_on_with_it(monkeypatch, paper)
             done(0, 1)
 
     monkeypatch.setattr("ballscrew.faces.web.answers_api.sweeps.sweep", endless)
-    found = []
-
-    async def scene():
-        transport = httpx.ASGITransport(server.application(requests=RequestQueue(time_limit=0.2)))
-        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=LONG) as client:
-            found.append(await client.post("/api/v1/answers", json={"case": paper}))
-
-    run_scene(scene())
-    lines = {line["question"]: line for line in map(json.loads, found[0].text.splitlines())}
+    with asking(requests=RequestQueue(time_limit=0.2)) as client:
+        found = client.post("/api/v1/answers", json={"case": paper})
+    lines = {line["question"]: line for line in map(json.loads, found.text.splitlines())}
     assert "answer" in lines["run"]
     wanted = curves(compute.run(case_of(paper)))
     assert wanted

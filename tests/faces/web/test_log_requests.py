@@ -1,20 +1,17 @@
 """Logs sent to the server: it answers what the command line prints, says what it took for what, and keeps nothing."""
 
-import asyncio
 import base64
-import json
 import tempfile
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import httpx
 import pytest
 
 from ballscrew.faces.web.request_queue import RequestQueue
-from ballscrew.faces.web.server import application
-from faces.web.test_equal_to_commands import document, written
 from support.documents import assert_same
+
+from .conftest import asking
+from .test_equal_to_commands import document, written
 
 pytestmark = pytest.mark.slow
 
@@ -23,23 +20,14 @@ EXAMPLES = Path(__file__).parents[3] / "examples"
 
 @pytest.fixture(scope="module")
 def client():
-    """Asks the application itself, for a server takes seconds to start; in a thread, for a browser has a loop here."""
-    transport = httpx.ASGITransport(application(requests=RequestQueue(time_limit=600)))
-    found = httpx.AsyncClient(transport=transport, base_url="http://127.0.0.1", timeout=600)
-    with ThreadPoolExecutor(1) as thread, asyncio.Runner() as runner:
-
-        def ask(*asked, **more):
-            return thread.submit(lambda: runner.run(found.request(*asked, **more))).result()
-
-        yield ask
-        thread.submit(lambda: (runner.run(found.aclose()), runner.close())).result()
+    with asking(requests=RequestQueue(time_limit=600)) as found:
+        yield found
 
 
 @pytest.fixture
 def post(client):
     def one(address, body, status=200):
-        headers = {"Content-Type": "application/json"}
-        found = client("POST", f"/api/v1/{address}", content=json.dumps(body), headers=headers)
+        found = client.post(f"/api/v1/{address}", json=body)
         assert found.status_code == status, found.text[:1000]
         return found.json()
 
@@ -180,7 +168,7 @@ def test_targets(client, post):
     """All that the command knows, with their choices; what a target lacks is said, and no target is refused at 500."""
     from ballscrew.exports.export import TARGETS
 
-    found = client("GET", "/api/v1/targets").json()["targets"]
+    found = client.get("/api/v1/targets").json()["targets"]
     assert [one["name"] for one in found] == [*TARGETS]
     case = tables_of("olaru2005.toml")
     refused = post("hand-over", {"case": case, "to": "table", "options": {"kinds": "doc"}}, 422)

@@ -24,20 +24,11 @@ def violations(here):
     return [(one["id"], one["impact"], [node["target"] for node in one["nodes"]][:3]) for one in found]
 
 
-#: The short run has each size and each scheme once.
-PROFILES = [
-    pytest.param("desktop", "dark"),
-    pytest.param("phone", "light"),
-    pytest.param("desktop", "light", marks=pytest.mark.long),
-    pytest.param("phone", "dark", marks=pytest.mark.long),
-]
-
-
-@pytest.mark.parametrize(("size", "scheme"), PROFILES)
+@pytest.mark.parametrize(("size", "scheme"), [("desktop", "dark"), ("phone", "light")])
 def test_axe_finds_nothing(visit, size, scheme):
-    here = visit(**SIZES[size], scheme=scheme)
-    here.expected = ("status of 422",)
-    here.open(f"#A={DOUBLE}&A.operation.axial_load=2+kN&B=paper&band=1&show=A")
+    here = visit(**SIZES[size], scheme=scheme, expected=("status of 422",)).open(
+        f"#A={DOUBLE}&A.operation.axial_load=2+kN&B=paper&band=1&show=A"
+    )
     here.page.wait_for_selector("#band-words >> text=95 %")
     here.see("#models-button")
     here.page.locator("#models-button").click()
@@ -124,9 +115,7 @@ def test_focus_stays_when_the_form_is_made_anew(visit):
 
 
 def test_results_and_faults_are_said(visit):
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open()
+    here = visit(expected=("status of 422",)).open()
     assert here.page.locator("#said").get_attribute("role") == "status"
     here.page.evaluate(
         """() => { window.heard = []; const said = document.querySelector("#said");
@@ -181,7 +170,7 @@ def test_headings_tables_and_labels(visit):
 
 
 #: The narrowest and the widest; 680 is a screen of 1360 with letters of 200 %.
-WIDTHS = [320, 1024, *(pytest.param(width, marks=pytest.mark.long) for width in (390, 680, 768))]
+WIDTHS = [320, 680, 1024]
 
 
 @pytest.mark.parametrize("width", WIDTHS)
@@ -227,7 +216,7 @@ def contrast(one, other):
     return (bright + 0.05) / (dark + 0.05)
 
 
-@pytest.mark.parametrize("scheme", ["dark", pytest.param("light", marks=pytest.mark.long)])
+@pytest.mark.parametrize("scheme", ["dark", "light"])
 def test_letters_of_charts_and_drawing_can_be_read(visit, scheme):
     here = visit(scheme=scheme, height=4000).open()
     here.see("#drawing")

@@ -70,9 +70,7 @@ def test_a_feed_axis_from_its_sketch_to_its_numbers(visit, server):
 
 
 def test_an_axis_without_an_installation_on_a_phone(visit):
-    here = visit(width=390, height=844, scheme="dark")
-    here.expected = ("status of 422",)
-    here.open("#A=paper&band=0&view=axis")
+    here = visit(width=390, height=844, scheme="dark", expected=("status of 422",)).open("#A=paper&band=0&view=axis")
     page = here.page
     page.wait_for_selector("#axis .fault:has-text('unsupported length')")
     assert part(here, "table") == "not given"

@@ -11,8 +11,10 @@ import pytest
 
 from ballscrew.basis.units import to_digits
 
-from .conftest import BUSY, Visit, new_page
+from .conftest import BUSY
 from .drawn_charts import chart
+from .test_page_access import contrast
+from .test_page_duty import case_of
 
 pytestmark = pytest.mark.slow
 
@@ -24,56 +26,19 @@ HARD = (
     f"#A={DOUBLE}&A.operation.axial_load=15+kN&A.operation.screw_speed=3500+rpm&A.limits.running_time=20000+h"
     "&A.installation.unsupported_length=3+m&A.installation.ends=fixed-supported&band=0"
 )
-SHIFTS = """window.shift = 0; new PerformanceObserver((list) => {
+#: It listens before anything is loaded.
+AT_FIRST = """window.shift = 0; new PerformanceObserver((list) => {
   for (const one of list.getEntries()) if (!one.hadRecentInput) shift += one.value; })
   .observe({ type: "layout-shift", buffered: true })"""
 
 
-@pytest.fixture(scope="module")
-def opened(browser, server):
-    page = new_page(browser)
-    page.set_viewport_size({"width": 1360, "height": 900})
-    page.add_init_script(SHIFTS)
-    here = Visit(page, server.address)
-    here.open(f"#A={DOUBLE}")
-    page.wait_for_selector("#band-words >> text=95 %")
-    here.shift = page.evaluate("shift")
-    yield here
-    here.leave()
-    page.close()
-    assert not [line for line in here.complaints if "status of 422" not in line and "status of 429" not in line]
-    assert here.outside() == []
-
-
-@pytest.fixture
-def go(opened):
-    """Lead the page to another case without loading it again."""
-    return opened.lead
-
-
-def answer(server, here, address="run"):
-    """What the server says of the case that the page gives."""
-    return server.post(
-        address, {"case": tomllib.loads(here.download("#downloads button:text-is('TOML')").decode())}
-    ).json()
+#: Where the page that stays open begins.
+START = f"#A={DOUBLE}"
 
 
 def test_layout_shift(opened):
     """Defect 11: 0.24 while the page was loading."""
     assert opened.shift < 0.1
-
-
-def test_digits_are_those_of_every_number(go):
-    """Defect 6: digits differed with the band; how well a number is known its interval says, which holds it."""
-    here = go(f"#A={DOUBLE}")
-    here.page.wait_for_selector("#band-words >> text=95 %")
-    torque = here.text("#numbers [data-name=screw_torque]").split()[0]
-    interval = here.text("#numbers [data-name=screw_torque] + .interval")
-    low, high = re.search(r"([\d.]+) to ([\d.]+)", interval).groups()
-    assert float(low) < float(torque) < float(high)
-    exact = here.numbers()["results"]["screw_torque"]
-    assert torque == to_digits(exact)
-    assert f"{torque} N·m (inputs and laws: {low} to {high} N·m)" in here.text("#summary")
 
 
 def test_the_band_comes_later_where_the_server_is_busy(go):
@@ -98,7 +63,7 @@ def test_calibration_is_a_button_beside_the_vendors_rows(go, server):
     assert "without calibration" in here.text("#vendor-rows")
     assert "the rows of Rexroth (rexroth-double-nut)" in here.text("#vendor-rows")
     assert "the make of this nut is not known" in here.text("#assumed")
-    found = answer(server, here)["results"]
+    found = server.post("run", {"case": case_of(here)}).json()["results"]
     for torque in (found["preload_drag_of_balls"], *found["rules"].values()):
         assert f"{to_digits(torque)} N m" in here.text("#rules")
     before = here.numbers()["results"]["preload_drag"]
@@ -126,7 +91,7 @@ def test_wrong_legend_after_hover(go):
 def test_hidden_checks(go, server):
     """Defect 2: no check was shown, and a screw that fails six of them had no warning."""
     here = go(HARD)
-    found = answer(server, here, "check")
+    found = server.post("check", {"case": case_of(here)}).json()
     rows = here.page.locator("#checks tbody tr")
     shown = rows.evaluate_all(
         "all => all.map((row) => [row.dataset.check, Number(row.querySelector('data').value), row.innerText])"
@@ -142,25 +107,10 @@ def test_hidden_checks(go, server):
     assert full == len(failed)
 
 
-def test_dropped_stiffness_and_loads(go, server):
-    """Defect 2: rigidity, deflection, remaining preload, lift-off load and the load of each ball were not shown."""
-    here = go(f"#A={DOUBLE}&A.operation.axial_load=1+kN&band=0")
-    loads = answer(server, here)["loads"]
-    for name in ("rigidity", "deflection", "remaining_preload", "lift_off_load"):
-        assert float(here.page.locator(f"#stiffness [data-name={name}]").get_attribute("value")) == loads[name]
-    nut = here.page.locator("#stiffness [data-name=axial_rigidity-nut]").get_attribute("value")
-    assert float(nut) == loads["axial_rigidity"]["nut"]
-    headings, *rows = here.download("#balls-chart button[aria-label^=CSV]").decode().splitlines()
-    assert headings.startswith("ball,")
-    assert [float(row.split(",")[1]) for row in rows] == pytest.approx(loads["balls"]["forward_load"])
-    here.page.locator("#start").select_option("paper")
-    assert "Each ball carries" in here.settle().text("#stiffness")
-
-
 def test_placeholders_are_what_counts(go, server):
     """Defect 3: examples stood in the empty fields, 88 mPa s where 28 counted, 20 µm of play where none did."""
     here = go("#A=paper&A.lubricant.grade=ISO+VG+32&A.lubricant.viscosity=&A.nut.type=single&band=0")
-    oil = answer(server, here)["inputs"]["lubricant"]
+    oil = server.post("run", {"case": case_of(here)}).json()["inputs"]["lubricant"]
     placeholder = "one => one.placeholder"
     viscosity = here.page.locator("#f-lubricant-viscosity").evaluate(placeholder)
     assert float(viscosity) == pytest.approx(1e3 * oil["viscosity"], rel=1e-3)
@@ -315,18 +265,6 @@ def test_arrows_of_the_drawing_in_the_dark(go):
     )
     here.page.emulate_media(color_scheme="light")
     assert contrast(stroke, back) > 4.5
-
-
-def contrast(one, other):
-    """The contrast of two colours ``rgb(…)`` after WCAG."""
-    bright, dark = sorted((luminance(one), luminance(other)), reverse=True)
-    return (bright + 0.05) / (dark + 0.05)
-
-
-def luminance(colour):
-    parts = [int(part) / 255 for part in re.findall(r"\d+", colour)[:3]]
-    light = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
-    return 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2]
 
 
 def test_nothing_passes_that_was_not_judged(go):

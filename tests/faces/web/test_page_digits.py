@@ -52,6 +52,7 @@ def test_the_headline_does_not_change_when_its_band_comes(visit, server):
     here = visit().open("#A=paper&band=0")
     before = here.text("#summary")
     torque = re.search(r"Friction torque ([\d.]+) N·m", before)[1]
+    assert torque == to_digits(here.numbers()["results"]["screw_torque"])
     shown = here.page.locator("#numbers dd data").all_inner_texts()
     here.page.locator("#band").check()
     here.page.wait_for_selector("#band-words details")

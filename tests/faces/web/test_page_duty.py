@@ -51,9 +51,9 @@ def edited(here, card, action):
 
 
 def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open("#A=paper&A.nut.type=double&A.nut.preload=2+kN&A.screw.dynamic_load_rating=20+kN&band=0")
+    here = visit(expected=("status of 422",)).open(
+        "#A=paper&A.nut.type=double&A.nut.preload=2+kN&A.screw.dynamic_load_rating=20+kN&band=0"
+    )
     page = here.page
     here.go("duty")
     answered(here, "duty")
@@ -132,9 +132,15 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
 
 
 def test_warming_up_with_a_band_that_is_cancelled(visit, server):
-    here = visit(width=390, height=844, scheme="dark")
-    here.expected = ("status of 422", "ERR_FAILED")
-    here.open("#A=warm-up&band=0&view=heat")
+    here = visit(
+        width=390,
+        height=844,
+        scheme="dark",
+        expected=(
+            "status of 422",
+            "ERR_FAILED",
+        ),
+    ).open("#A=warm-up&band=0&view=heat")
     page = here.page
     answered(here, "warm-up")
     shows(here, "warm-up", server.post("warm-up", {"case": case_of(here)}).json()["sheet"])

@@ -11,10 +11,6 @@ from .drawn_charts import AT_LOAD, DRAWN, POINT
 pytestmark = pytest.mark.slow
 
 
-def value(here, field):
-    return here.page.locator(here.id(field)).input_value()
-
-
 def undo(here):
     before = here.page.url
     here.page.locator("#undo").click()
@@ -31,7 +27,7 @@ def test_undo_takes_one_edit_back(visit):
     here.type("operation.axial_load", "6000")
     field.press("Tab")
     undo(here)
-    assert value(here, "operation.axial_load") == "5000"
+    assert here.value("operation.axial_load") == "5000"
     slider = here.page.locator("#s-operation-axial_load")
     for x in (0.3, 0.8):
         box = slider.bounding_box()
@@ -41,9 +37,9 @@ def test_undo_takes_one_edit_back(visit):
         here.page.mouse.up()
         here.settle()
     undo(here)
-    middle = float(value(here, "operation.axial_load"))
+    middle = float(here.value("operation.axial_load"))
     undo(here)
-    assert middle != 5000 == float(value(here, "operation.axial_load"))
+    assert middle != 5000 == float(here.value("operation.axial_load"))
 
     here.see("#map-chart")
     here.page.locator("#map-chart").scroll_into_view_if_needed()
@@ -54,11 +50,11 @@ def test_undo_takes_one_edit_back(visit):
     here.page.mouse.move(x + 60, y - 40, steps=3)
     here.page.mouse.up()
     here.settle()
-    assert value(here, "operation.axial_load") != "5000"
-    speed = value(here, "operation.screw_speed")
+    assert here.value("operation.axial_load") != "5000"
+    speed = here.value("operation.screw_speed")
     undo(here)
-    assert value(here, "operation.axial_load") == "5000"
-    assert value(here, "operation.screw_speed") != speed
+    assert here.value("operation.axial_load") == "5000"
+    assert here.value("operation.screw_speed") != speed
 
 
 EDITS = """async (edits) => {
@@ -131,9 +127,13 @@ def test_a_server_that_is_gone(visit, commands, start):
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     server = start("--port", str(port))
-    here = visit(server.address)
-    here.expected = ("ERR_", "Failed to load")
-    here.open("#A=paper&band=0")
+    here = visit(
+        server.address,
+        expected=(
+            "ERR_",
+            "Failed to load",
+        ),
+    ).open("#A=paper&band=0")
     server.end()
     page = here.page
     page.locator(here.id("operation.axial_load")).fill("5000")
@@ -179,24 +179,6 @@ def test_a_new_tab_restores_the_latest_edit(browser, server):
     third = opened(server.address)
     assert third.locator("#f-operation-axial_load").input_value() == "2222"
     context.close()
-
-
-def test_the_example_of_a_fit_frees_what_its_log_has(visit, server):
-    """Its first warning said to free the constant torque, which the example left out."""
-    here = visit().open("#A=paper&band=0&view=measure")
-    page = here.page
-    page.locator("#fit-example").click()
-    page.wait_for_selector("#calibrate-fit")
-    found = server.get("examples").json()["fit"]
-    assert found["free"] == ["friction.boundary_friction_coefficient", "constant_torque"]
-    page.wait_for_function("() => document.querySelectorAll('#calibration .card-inputs input:checked').length === 2")
-    assert "constant_torque" in here.text("#calibration .card-inputs")
-    page.locator("#calibrate-fit").click()
-    page.wait_for_selector("#calibrate-use")
-    page.wait_for_selector("#calibration .sheet table")
-    words = here.text("#calibration .card-result").casefold()
-    assert "with the constant torque free, too" not in words
-    assert "within" in words or "of the loads and speeds that the log has" in words
 
 
 def test_units_and_labels_are_those_of_people(visit):

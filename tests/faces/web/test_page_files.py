@@ -51,7 +51,10 @@ def toml_and_json(here, path):
     shown = here.numbers()["results"]
     assert shown == {name: document["results"][name] for name in shown}
     of_nut = "all => all.map((one) => [one.dataset.name, Number(one.value)])"
-    for name, value in here.page.eval_on_selector_all("#stiffness data", of_nut):
+    of_page = dict(here.page.eval_on_selector_all("#stiffness data", of_nut))
+    if "balls" in document.get("loads", {}):
+        assert {"rigidity", "deflection", "remaining_preload", "lift_off_load"} <= of_page.keys()
+    for name, value in of_page.items():
         assert functools.reduce(dict.get, name.split("-"), document["loads"]) == value, name
 
 

@@ -70,9 +70,7 @@ def test_cancelling_on_the_page_kills_the_work(visit, server):
 def test_a_limit_that_was_reached_is_said_as_it_is(start, visit):
     """Once, in true words: no field is marked, and no browser sends it again."""
     server = start("--time-limit", "0.1")
-    here = visit(server.address)
-    here.expected = ("status of 422",)
-    here.open(DOUBLE_NUT)
+    here = visit(server.address, expected=("status of 422",)).open(DOUBLE_NUT)
     # a job of a tenth of a second: its limit is 3 s, which this log of many rows does not take; it is refused by hand
     (fault,) = out_of_time(3.0, is_job=True).faults
     refused = {"title": "Invalid input", "status": 422, "lines": [str(fault)], "faults": [fault.document()]}

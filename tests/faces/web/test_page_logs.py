@@ -43,9 +43,7 @@ def given_logs(here):
 
 def test_a_log_is_fitted_and_used(visit, server):
     """From the example, with a column that is chosen by hand, to the case with the calibration, and back."""
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open("#A=paper&band=0&view=measure")
+    here = visit(expected=("status of 422",)).open("#A=paper&band=0&view=measure")
     page = here.page
     page.locator("#fit-example").click(timeout=20_000)
     page.wait_for_selector("#calibrate-fit:enabled")
@@ -107,9 +105,7 @@ def test_a_log_is_fitted_and_used(visit, server):
 
 
 def test_two_logs_tell_the_preload_that_is_left(visit, server):
-    here = visit(width=390, height=844, scheme="dark")
-    here.expected = ("status of 422",)
-    here.open(DOUBLE_NUT)
+    here = visit(width=390, height=844, scheme="dark", expected=("status of 422",)).open(DOUBLE_NUT)
     page = here.page
     body = given_logs(here)
     page.locator("#service-tolerance").fill("5")
@@ -134,9 +130,7 @@ def test_two_logs_tell_the_preload_that_is_left(visit, server):
 def test_a_design_is_handed_over(visit, server):
     import base64
 
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open("#A=paper&band=0&view=hand-over")
+    here = visit(expected=("status of 422",)).open("#A=paper&band=0&view=hand-over")
     page = here.page
     page.wait_for_selector("#hand-over-target option >> nth=1", state="attached")
     page.locator("#hand-over-target").select_option("linuxcnc")

@@ -10,16 +10,12 @@ from .drawn_charts import AT_LOAD, POINT
 pytestmark = pytest.mark.slow
 
 
-def value(here, field):
-    return here.page.locator(here.id(field)).input_value()
-
-
 def test_the_operating_point_moves_by_hand(visit):
     """The paper's screw, of 5 mm lead, from 600 rpm to 12 m/min, by a slider, and in the chart."""
     here = visit().open()
     before = here.numbers()["results"]["screw_torque"]
     here.unit("operation.screw_speed", "m/min")
-    assert value(here, "operation.screw_speed") == "3"
+    assert here.value("operation.screw_speed") == "3"
     assert here.numbers()["results"]["screw_torque"] == before
     here.type("operation.screw_speed", "12")
     assert "2400 rpm" in here.text("#case")
@@ -31,18 +27,18 @@ def test_the_operating_point_moves_by_hand(visit):
     here.type("screw.lead", "20 mm ± 0.1 mm").rest(400)  # the lead that counts is known from the answer
     assert "600 rpm" in here.text("#case")
     here.unit("operation.screw_speed", "rpm")
-    assert value(here, "operation.screw_speed") == "600"
+    assert here.value("operation.screw_speed") == "600"
     here.unit("operation.screw_speed", "m/min")
     here.page.locator("#s-operation-screw_speed").press("ArrowRight")
     assert "615 rpm" in here.settle().text("#case")
-    assert value(here, "operation.screw_speed") == "12.3"
+    assert here.value("operation.screw_speed") == "12.3"
     here.type("operation.screw_speed", "12").type("screw.lead", "10 mm")
 
     slider = here.page.locator("#s-operation-axial_load")
     assert slider.get_attribute("aria-valuetext") == "4000 N"
     slider.press("ArrowRight")
     here.settle()
-    assert value(here, "operation.axial_load") == "4050"
+    assert here.value("operation.axial_load") == "4050"
     here.type("operation.axial_load", "20000")
     assert float(slider.get_attribute("max")) == 50_000
 
@@ -53,10 +49,10 @@ def test_the_operating_point_moves_by_hand(visit):
     mouse.move(x, y)
     mouse.down()
     mouse.move(x - 80, y + 40, steps=3)
-    assert value(here, "operation.screw_speed") == "12"  # the chart stays under the pointer until it is let go
+    assert here.value("operation.screw_speed") == "12"  # the chart stays under the pointer until it is let go
     mouse.up()
     here.settle()
-    assert 5 < float(value(here, "operation.screw_speed")) < 12
+    assert 5 < float(here.value("operation.screw_speed")) < 12
     here.rest(400)  # the address follows
     assert re.search(r"screw_speed=[\d.]+\+m%2Fmin", here.page.url)
 

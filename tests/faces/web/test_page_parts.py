@@ -5,33 +5,16 @@ import urllib.parse
 
 import pytest
 
-from .conftest import Visit, new_page
-
 pytestmark = pytest.mark.slow
 
-PAPER = "#A=paper&band=0"
-
-
-@pytest.fixture(scope="module")
-def opened(browser, server):
-    page = new_page(browser)
-    page.set_viewport_size({"width": 1360, "height": 900})
-    here = Visit(page, server.address).open(PAPER)
-    yield here
-    here.leave()
-    page.context.close()
-    assert not [line for line in here.complaints if "status of 422" not in line]
-    assert here.outside() == []
+#: Where the page that stays open begins.
+START = PAPER = "#A=paper&band=0"
 
 
 @pytest.fixture
 def go(opened):
-    """Lead the page to another case without loading it again."""
-
-    def to(fragment=PAPER):
-        return opened.lead(fragment)
-
-    return to
+    """Lead the page to another case without loading it again, or to the first one."""
+    return lambda fragment=PAPER: opened.lead(fragment)
 
 
 @pytest.fixture
@@ -236,11 +219,6 @@ def test_who_waits_for_an_answer_of_somebody_that_leaves_asks_again(go, server, 
     paper["operation"]["axial_load"] = "1777 N"
     torque = server.post("run", {"case": paper}).json()["results"]["screw_torque"]
     assert go().page.evaluate(LEFT, {"case": paper}) == [1, True, 2, torque]
-
-
-def answered(here, card):
-    """Wait until a card has its answer."""
-    here.page.wait_for_selector(f"#{card} .card-result[aria-busy=false]:not(.earlier)")
 
 
 def test_what_fails_without_a_limit_has_no_multiple_of_it(go):

@@ -76,9 +76,7 @@ def toml(here):
 
 
 def test_files_and_designs(visit):
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open()
+    here = visit(expected=("status of 422",)).open()
     said = given(here, "mine.toml", MINE.encode())
     assert "mine.toml is open: design A." in said  # nobody had touched the first one
     assert "2 comments" in said

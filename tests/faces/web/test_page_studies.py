@@ -94,9 +94,7 @@ def test_an_optimum_is_taken(visit, server):
 
 def test_a_condition_over_time(visit, server):
     """From a table; then from logs, which are put in order by hand, and cannot be judged with a wrong option."""
-    here = visit(width=390, height=844)
-    here.expected = ("status of 422",)
-    here.open("#A=paper&band=0&view=measure.condition")
+    here = visit(width=390, height=844, expected=("status of 422",)).open("#A=paper&band=0&view=measure.condition")
     page = here.page
     page.locator("#condition-example").click()
     page.wait_for_selector("#condition-start:enabled")
@@ -128,32 +126,9 @@ def test_a_condition_over_time(visit, server):
     assert not page.locator("#condition tbody tr").first.is_visible()  # no number stands below a fault
 
 
-def test_an_optimisation_survives_a_reload_and_is_cancelled(visit, server):
-    """The job of a search that takes long: found again, with its progress, and killed by its button."""
-    here = visit().open(with_need(NEED))
-    page = here.page
-    page.wait_for_selector("#optimise-start")
-    page.locator("#optimise details.card-fields > summary").click()
-    page.locator("#optimise-generations").fill("2000")
-    with page.expect_response(lambda one: one.url.endswith("/jobs/optimise")) as begun:
-        page.locator("#optimise-start").click()
-    job = begun.value.json()["id"]
-    page.reload()
-    page.wait_for_selector("#optimise .card-line progress[value]")
-    assert server.get(f"jobs/{job}").json()["state"] == "running"
-    page.locator("#optimise .card-line button").click()
-    page.wait_for_selector("#optimise .card-line:has-text('Cancelled')")
-    while (state := server.get(f"jobs/{job}").json()["state"]) == "running":
-        here.rest(100)
-    assert state == "cancelled"
-    assert sum(url.endswith("/jobs/optimise") for url in here.requests) == 1
-
-
 def test_a_long_request_is_shown_and_cancelled(visit, server):
     """The line at the foot of the page says how far it is; the next request of its kind is a job at once."""
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open("#A=paper&band=0")
+    here = visit(expected=("status of 422",)).open("#A=paper&band=0")
     page = here.page
     fault = {"where": "server", "path": "server", "id": "out_of_time", "text": "", "line": "", "problem": "",
              "given": "", "remedy": "", "messages": {"problem": None, "given": None, "remedy": None}}  # fmt: skip

@@ -45,9 +45,7 @@ def test_each_view_has_an_address_and_is_reached_by_its_tab(visit):
     ],
 )
 def test_an_address_leads_to_a_part_of_a_view_also_by_its_old_name(visit, address, name, place):
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open(f"#A=paper&band=0&view={address}")
+    here = visit(expected=("status of 422",)).open(f"#A=paper&band=0&view={address}")
     assert view(here) == name
     here.page.wait_for_function(
         "(place) => document.querySelector(place).getBoundingClientRect().top < innerHeight", arg=place
@@ -153,9 +151,7 @@ def test_work_goes_on_while_another_view_is_seen(visit):
 
 @pytest.mark.parametrize("name", ["torque", "nut", "heat", "handover"])
 def test_a_section_has_one_primary_action_at_most(visit, name):
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open(f"#A=paper&band=0&view={name}")
+    here = visit(expected=("status of 422",)).open(f"#A=paper&band=0&view={name}")
     most = """() => Math.max(...[...document.querySelectorAll("section")].map((section) =>
       [...section.querySelectorAll(".primary")].filter((one) => one.checkVisibility()).length))"""
     assert here.page.evaluate(most) <= 1

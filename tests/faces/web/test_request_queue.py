@@ -1,26 +1,19 @@
 """Time limits and the queue, with small limits."""
 
 import asyncio
-import concurrent.futures
 import json
 import subprocess
 import sys
 import threading
 import time
 
-import httpx
 import pytest
 
 from ballscrew.faces.web import api, server
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import RequestQueue
 
-
-def run_scene(scene):
-    """Run in a thread of its own: an open browser keeps a loop running in the main thread of this process."""
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:
-        pool.submit(asyncio.run, scene).result()
-
+from .conftest import asking, run_scene
 
 #: Longer than any test takes, also on a busy machine.
 LONG = 600
@@ -127,24 +120,21 @@ def test_beyond_the_queue_it_is_refused_and_quick_work_goes_on():
 
 def test_a_short_sweep_does_not_wait_for_bands(paper):
     """One of some hundred points takes 20 to 90 ms; a long one waits its turn, and here there is no room left."""
+    queue, go_on = RequestQueue(time_limit=LONG, heavy=1, waiting=1), threading.Event()
 
-    async def scene():
-        queue, go_on = RequestQueue(time_limit=LONG, heavy=1, waiting=1), threading.Event()
-        heavy = [asyncio.create_task(queue.heavy(lambda _: go_on.wait(LONG))) for _ in range(2)]
-        transport = httpx.ASGITransport(server.application(requests=queue))
-        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=LONG) as client:
+    async def begin():
+        return [asyncio.create_task(queue.heavy(lambda _: go_on.wait(LONG))) for _ in range(2)]
 
-            async def status(points):
-                body = {"case": paper, "vary": {"axial_load": f"1:9000:{points} N"}, "outputs": ["screw_torque"]}
-                return (await client.post("/api/v1/sweep", json=body)).status_code
+    with asking(requests=queue) as client:
+        heavy = client.portal.call(begin)
 
-            assert await status(400) == 200
-            assert await status(5000) == 429
+        def status(points):
+            body = {"case": paper, "vary": {"axial_load": f"1:9000:{points} N"}, "outputs": ["screw_torque"]}
+            return client.post("/api/v1/sweep", json=body).status_code
+
+        assert (status(400), status(5000)) == (200, 429)
         assert not any(task.done() for task in heavy)
         go_on.set()
-        assert await asyncio.gather(*heavy) == [True] * 2
-
-    run_scene(scene())
 
 
 def test_an_error_is_raised_and_frees_its_place():
@@ -256,11 +246,7 @@ def test_a_disconnect_stops_the_work(monkeypatch, paper):
 def test_the_samples_of_a_sweep_are_refused_before_it_waits(paper):
     """Defect: they were counted after the sweep was computed. No heavy request may wait here: it would be a 429."""
 
-    async def scene():
-        transport = httpx.ASGITransport(server.application(requests=RequestQueue(waiting=0)))
-        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=60) as client:
-            body = {"case": paper, "vary": {"axial_load": "1:2:9 kN"}, "band": True, "samples": 10**9}
-            found = await client.post("/api/v1/sweep", json=body)
-            assert (found.status_code, "--samples: too many" in found.text) == (422, True), found.text[:300]
-
-    run_scene(scene())
+    with asking(requests=RequestQueue(waiting=0)) as client:
+        body = {"case": paper, "vary": {"axial_load": "1:2:9 kN"}, "band": True, "samples": 10**9}
+        found = client.post("/api/v1/sweep", json=body)
+    assert (found.status_code, "--samples: too many" in found.text) == (422, True), found.text[:300]

@@ -1,19 +1,17 @@
 """``POST /api/v1/select``: the document of the command; paths are refused."""
 
-import asyncio
-import concurrent.futures
 import json
 
-import httpx
 import pytest
 
 from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.output.json_text import plain
-from ballscrew.faces.web import server
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.questions.select.answer import document
 from ballscrew.questions.select.compute import select
 from ballscrew.questions.select.sheet import sheet
+
+from .conftest import asking
 
 NEED = {
     "force": "2 kN",
@@ -70,15 +68,10 @@ def test_what_a_need_leaves_open_is_said_before_it_starts(server):
 def test_a_plan_with_a_table_is_no_quick_request():
     """A table of a megabyte is read for seconds: it waits with the heavy requests, of which none may wait here."""
 
-    async def statuses():
-        transport = httpx.ASGITransport(server.application(requests=RequestQueue(waiting=0)))
-        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=60) as client:
-            table = {"table": {"name": "own.csv", "text": "name,lead [mm]\n"}}
-            bodies = ({"need": NEED, "words": "rexroth 32x10", **more} for more in ({}, table))
-            return [(await client.post("/api/v1/select/plan", json=body)).status_code for body in bodies]
-
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:
-        assert pool.submit(asyncio.run, statuses()).result() == [200, 429]
+    table = {"table": {"name": "own.csv", "text": "name,lead [mm]\n"}}
+    with asking(requests=RequestQueue(waiting=0)) as client:
+        bodies = ({"need": NEED, "words": "rexroth 32x10", **more} for more in ({}, table))
+        assert [client.post("/api/v1/select/plan", json=body).status_code for body in bodies] == [200, 429]
 
 
 def _not_judged(candidate):

@@ -1,7 +1,6 @@
 """``ballscrew serve`` as a process: how it begins and how it ends."""
 
 import asyncio
-import concurrent.futures
 import contextlib
 import json
 import signal
@@ -16,6 +15,8 @@ import pytest
 import uvicorn
 
 from ballscrew.faces.web import connections, server
+
+from .conftest import run_scene
 
 ENDS = (0, 130)
 
@@ -120,8 +121,8 @@ def test_what_was_sent_before_the_end_is_answered(paper, accepted):
         await server.shutdown([listening])
         return asked
 
-    with concurrent.futures.ThreadPoolExecutor(1) as pool, contextlib.ExitStack() as stack:
-        asked = [stack.enter_context(connection) for connection in pool.submit(asyncio.run, scene()).result()]
+    with contextlib.ExitStack() as stack:
+        asked = [stack.enter_context(connection) for connection in run_scene(scene())]
         assert [status_of(connection) for connection in asked] == [503] * 5
 
 
@@ -178,6 +179,5 @@ def test_unread_responses_time_out(monkeypatch, reads):
         await asyncio.sleep(0.3)
         protocol.connection_lost(None)
 
-    with concurrent.futures.ThreadPoolExecutor(1) as pool:  # the first thread may have a loop, of a browser
-        pool.submit(asyncio.run, scene()).result()
+    run_scene(scene())
     assert transport.abort.called != reads

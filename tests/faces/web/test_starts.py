@@ -22,3 +22,5 @@ def test_logs_to_try_are_examples():
     assert shipped == {name: (ROOT / "examples" / name).read_bytes() for name in shipped}
     given = {one["name"] for found in logs().values() for one in found["logs"]}
     assert {*given, *(found["file"] for found in logs().values())} == set(shipped)
+    # without the constant torque free, too, the first warning of the example would ask for it
+    assert logs()["fit"]["free"] == ["friction.boundary_friction_coefficient", "constant_torque"]

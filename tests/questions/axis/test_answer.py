@@ -7,7 +7,7 @@ from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.questions.axis.answer import FRICTION, LOAD, SERIES, SPEED, ChainResults, chain_of, document, sheet
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.answer_parts import Assumed
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 from support.axis_cases import load
 from support.commands import ROOT
 
@@ -51,7 +51,3 @@ def test_the_numbers_of_the_motion_have_units(report):
 def test_answers_are_valid_by_their_schema(example):
     found = document(chain_of(load(EXAMPLES / example, [])))
     declared.response(ChainResults, "Chain", beside=Assumed).model_validate({**found, "sheet": {}})
-
-
-def test_every_part_is_described():
-    assert list(undescribed(ChainResults)) == []

@@ -13,7 +13,6 @@ from ballscrew.questions.band.document import BandResults
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared import declared
-from support.answers import undescribed
 from support.commands import ROOT
 
 
@@ -56,7 +55,3 @@ def test_without_load_each_rule_is_within_the_band_or_not(preload):
     loaded = case_file.load(ROOT / "examples" / "service.toml", [*settings, "operation.axial_load=1 kN"])
     told = document.verdicts(loaded, compute.band(loaded, BandOptions(samples=64)))
     assert not [one.id for one in told if one.id.startswith("band.rule_")]
-
-
-def test_every_part_is_described():
-    assert list(undescribed(BandResults)) == []

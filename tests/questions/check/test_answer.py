@@ -10,12 +10,12 @@ from ballscrew.faces.sheets import files, terminal
 from ballscrew.faces.web import documents
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check import compute
-from ballscrew.questions.check.compute import BothRatings, Checks, Geometry, Options, Rated, one
+from ballscrew.questions.check.compute import Checks, Geometry, Options, Rated, one
 from ballscrew.questions.check.sheet import cells, sheet
 from ballscrew.questions.run.compute import NutLoads, run
 from ballscrew.questions.run.sheet import stiffness_fields
 from ballscrew.questions.shared import declared
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 from support.commands import ROOT
 from support.drive_case import drive_case
 
@@ -113,8 +113,3 @@ def test_every_number_has_a_unit(found):
     parts = {name: answer[name] for name in ("geometry", "loads", "ratings")}
     # as counted, and the factor of a standard
     assert set(without_unit(parts, answer["units"])) <= {"loads.balls.count", "loads.axial_rigidity.accuracy_factor"}
-
-
-@pytest.mark.parametrize("cls", [BothRatings, Geometry, NutLoads])
-def test_every_part_is_described(cls):
-    assert list(undescribed(cls)) == []

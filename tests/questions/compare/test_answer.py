@@ -8,11 +8,11 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.compare import compute
-from ballscrew.questions.compare.compute import ByRules, Compared, ComparedLaw, ComparedModel, comparison
+from ballscrew.questions.compare.compute import Compared, ComparedLaw, ComparedModel, comparison
 from ballscrew.questions.compare.response import Compare
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import declared
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 from support.commands import ROOT
 
 SERVICE = ROOT / "examples" / "service.toml"
@@ -60,8 +60,3 @@ def test_answers_are_valid_by_their_schema(example):
     found = compute.document(case, compared)
     Compare.model_validate({**found, "sheet": document(sheet(case, compared))})
     assert ("of_balls" in found) == (example == "service.toml")
-
-
-@pytest.mark.parametrize("cls", [Compared, ByRules])
-def test_every_part_is_described(cls):
-    assert list(undescribed(cls)) == []

@@ -8,12 +8,12 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.text import Text
 
 from ballscrew.evidence.papers import olaru2005
 from ballscrew.questions.reproduce import ball_figure
 from ballscrew.questions.reproduce import figure as figures
 from ballscrew.questions.shared import charts
+from support.pictures import clipped, undrawn
 
 PLOTS = {plot.name: plot for plot in (*ball_figure.PLOTS, *figures.PLOTS)}
 
@@ -66,26 +66,18 @@ def test_caption_states_the_case(figure):
 
 
 def test_nothing_is_clipped(figure):
-    renderer = figure.canvas.get_renderer()
-    page = figure.bbox.padded(1.0)
-    undrawn = _undrawn(figure)
-    for text in figure.findobj(Text):
-        if text.get_text() and text.get_visible():
-            box = text.get_window_extent(renderer)
-            inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
-            # labels of ticks beyond the limits, or of hidden axes, are laid out but not drawn
-            assert inside or text in undrawn, text.get_text()
+    assert clipped(figure) == []
 
 
 def test_no_legend_covers_an_axis_or_its_labels(figure):
     renderer = figure.canvas.get_renderer()
-    undrawn = _undrawn(figure)
+    hidden = undrawn(figure)
     texts = [
         text
         for panel in figure.findobj(mpl.axes.Axes)
         for axis in (panel.xaxis, panel.yaxis)
         for text in (*axis.get_ticklabels(), axis.label)
-        if text.get_text() and text.get_visible() and text not in undrawn
+        if text.get_text() and text.get_visible() and text not in hidden
     ]
     for legend in figure.findobj(mpl.legend.Legend):
         box = legend.get_window_extent(renderer)
@@ -95,17 +87,6 @@ def test_no_legend_covers_an_axis_or_its_labels(figure):
             panel = legend.axes.get_window_extent(renderer)
             assert panel.x0 <= box.x0
             assert panel.y0 <= box.y0
-
-
-def _undrawn(figure):
-    found = set()
-    for panel in figure.findobj(mpl.axes.Axes):
-        for axis in (panel.xaxis, panel.yaxis):
-            low, high = sorted(axis.get_view_interval())
-            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
-                if not (panel.axison and low <= tick.get_loc() <= high):
-                    found |= {tick.label1, tick.label2}
-    return found
 
 
 def test_table_holds_the_numbers(plot, sources):

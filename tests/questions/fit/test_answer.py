@@ -3,6 +3,7 @@
 import dataclasses
 import tomllib
 
+import numpy as np
 import pytest
 
 from ballscrew.basis.output.json_text import plain
@@ -14,7 +15,7 @@ from ballscrew.questions.fit.document import FitResults, FittedNumber
 from ballscrew.questions.fit.log import read_options, steady_log
 from ballscrew.questions.fit.sheet import of_rows, sheet, trade_off
 from ballscrew.questions.shared import declared
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 from support.fit_logs import EXAMPLES, FRICTION, OFFSET, PAPER, columns, text_of
 
 #: With and without what the log tells.
@@ -67,10 +68,6 @@ def test_every_number_has_a_unit(fitted):
     own = {"estimates", "sensor", "identifiability", "covariance", "next_test"}
     found = {name for name in without_unit(results, answer["units"]) if name.partition(".")[0] not in own}
     assert found <= {f"residuals.{name}.values" for name in answer["residuals"]}
-
-
-def test_every_part_is_described():
-    assert list(undescribed(FitResults)) == []
 
 
 def test_no_trade_off_is_not_taken_for_a_log_that_determines_each_number(tmp_path):
@@ -139,3 +136,17 @@ def test_a_trade_off_of_a_number_that_is_not_identified_has_no_standard_error(tm
 
     assert sentence().endswith("fits the rows nearly as well (one standard error)")
     assert sentence(identified=False, std=None).endswith("nearly as well; not identified: constant torque")
+
+
+def test_what_is_asked_reaches_the_fit(tmp_path):
+    """Bounds, rows held out, their seed, the kind of torque and the inertia; how each counts is a test of the fit."""
+    data = {"time": 0.5 * np.arange(60.0), **columns(60)}
+    bounds, inertia = {FRICTION: "0.15:0.3"}, {"inertia": "0.02 kg m^2", "holdout": 0.0, "kind": "friction"}
+    _, bounded = fit_of(tmp_path, data, [FRICTION], bounds=bounds, seed=1)
+    estimate = bounded.model.estimates[FRICTION]
+    assert (estimate.value, estimate.at_bound) == (pytest.approx(0.15, abs=1e-3), True)
+    _, other = fit_of(tmp_path, data, [FRICTION], seed=2)
+    assert np.any(bounded.model.rows.held_out != other.model.rows.held_out)
+    _, asked = fit_of(tmp_path, data, [FRICTION], **inertia)
+    assert not asked.model.rows.held_out.any()
+    assert asked.model.rows.convention.kind == "friction"

@@ -6,12 +6,12 @@ from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions.run import compute
-from ballscrew.questions.run.answer import RunResults, VendorRows, document
+from ballscrew.questions.run.answer import RunResults, document
 from ballscrew.questions.run.compute import OF_ONE_BALL
 from ballscrew.questions.run.response import Document
 from ballscrew.questions.run.sheet import SHOWN, meaning, sheet
 from ballscrew.questions.shared import declared
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 from support.commands import ROOT
 
 CASES = {
@@ -62,8 +62,3 @@ def test_every_number_has_a_unit(found):
         f"quadrants.{name}.{sign}" for name in answer["results"]["quadrants"] for sign in ("load_sign", "speed_sign")
     }
     assert set(without_unit(answer["results"], answer["units"])) <= signs
-
-
-def test_every_part_is_described():
-    assert list(undescribed(RunResults)) == []
-    assert list(undescribed(VendorRows)) == []

@@ -7,21 +7,13 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.named_calibration import by_rules
 from ballscrew.faces.sheets import files
-from ballscrew.questions.select.answer import (
-    BrakeOfNeed,
-    MotorTorque,
-    OfMotion,
-    OneCandidate,
-    OneObjective,
-    document,
-    plan_document,
-)
+from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, document, plan_document
 from ballscrew.questions.select.compute import Plan, plan
 from ballscrew.questions.select.requirements import OBJECTIVES
 from ballscrew.questions.select.response import Candidate, Select
 from ballscrew.questions.select.sheet import beside_rules, of_selection
 from ballscrew.questions.shared import declared
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 
 POINT = {"force": "2 kN", "feed": "10 m/min", "preload": "5 %", "rows": "hiwin-40-20k4"}
 MOVING = {
@@ -106,8 +98,3 @@ def test_a_plan_is_valid_by_its_schema():
     answer = plan_document(plan(POINT))
     declared.schema(Plan).model_validate(answer)
     assert answer["unasked"][0].keys() == {"input", "checks"}
-
-
-@pytest.mark.parametrize("cls", [OneCandidate, OneObjective, OfMotion, Plan])
-def test_every_part_is_described(cls):
-    assert list(undescribed(cls)) == []

@@ -1,14 +1,12 @@
 """``bs.select`` and ``ballscrew select``: equal to brute force by the public check, ranked, and refused in words."""
 
 import csv
-import dataclasses
 import json
 import math
 import sys
 import tomllib
 
 import jsonschema_rs
-import numpy as np
 import pytest
 
 import ballscrew as bs
@@ -21,8 +19,6 @@ from ballscrew.questions.select.answer import document, verdict
 from ballscrew.questions.select.candidates import BY_LOADS, NEARLY, USUAL_LIFE
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import OF_MOTION
-from ballscrew.questions.select.requirement_checks import kept_preload
-from ballscrew.questions.select.requirements import front
 from ballscrew.questions.select.sheet import cost, sheet
 from support.commands import ROOT
 from support.pictures import drawn
@@ -202,31 +198,6 @@ def test_what_its_loads_rule_out_changes_no_rank(need):
     assert [one.candidate.variant.label for one in found.ranked][len(found.ranked) - len(order) :] == order
     best, same = found.best, brute.best
     assert (best and best.variant.label) == (same and same.variant.label)
-
-
-@pytest.mark.slow
-def test_order_and_front():
-    found = bs.select(FEW)
-    candidates = [each.candidate for each in found.ranked]
-    assert [each.rank for each in found.ranked] == list(range(1, len(candidates) + 1))
-    holds = [each.holds for each in candidates]
-    assert holds == sorted(holds, reverse=True)
-    assert True in holds
-    assert False in holds
-    failing = [each.worst for each in candidates if not each.holds]
-    assert failing == sorted(failing)
-    assert all(each > 1 for each in failing)
-    best = [each.candidate for each in found.ranked if each.pareto]
-    for one in best:  # nothing that holds beats a member
-        for other in candidates:
-            if other.fits and other.valid:
-                better = [
-                    other.objectives[name] > one.objectives[name]
-                    if name in ("life", "rigidity")
-                    else other.objectives[name] < one.objectives[name]
-                    for name in found.objectives
-                ]
-                assert not all(better)
 
 
 @pytest.mark.parametrize(
@@ -440,25 +411,6 @@ def test_the_torque_without_load_is_starved_by_itself():
     assert [one["id"] for one in answer["warnings"]].count("lubricant.starved") == 1
 
 
-def test_what_must_drive_back_is_judged_by_the_larger_friction():
-    """Starved of oil the load turns the screw at its speed, in a full bath not; forbidden counts the smaller."""
-    need = {
-        "force": "0.2 kN", "speed": "3000 rpm", "temperature": "20 degC", "oil": "ISO VG 220", "nut": "single",
-        "rows": "hiwin-20-6", "bodies": {},
-    }  # fmt: skip
-    found = {}
-    for wanted in ("needed", "forbidden"):
-        candidate = bs.select({**need, "need": {"back_driving": wanted}}).ranked[0].candidate
-        found[wanted] = next(check for check in candidate.checks if check.name == "back_driving")
-    friction = candidate.checked.run.friction
-    ideal = float(friction.ideal_torque)
-    assert (ideal, float(friction.flooded_torque)) == pytest.approx((0.191, 0.221), rel=5e-3)
-    assert found["needed"].holds is False
-    assert found["needed"].value == pytest.approx(ideal - float(friction.flooded_torque))
-    assert found["forbidden"].holds is False
-    assert found["forbidden"].value >= ideal - float(friction.screw_torque) > 0
-
-
 @pytest.mark.slow
 def test_without_a_life_what_lives_short_is_ranked_last():
     """A small screw loses least and lives some hundred hours: nothing fails, and it comes after the others."""
@@ -522,20 +474,6 @@ def test_why_none_holds_stands_at_the_top():
 
 
 @pytest.mark.slow
-def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
-    example = ROOT / "examples" / "vertical_axis.toml"
-    found = bs.select(example, words="hiwin-40-20k4").ranked[0].candidate
-    elastic = tmp_path / "case.toml"  # the bodies of a row are elastic, as check takes them
-    elastic.write_text(example.read_text(encoding="utf-8") + "\n[bodies]\n", encoding="utf-8")
-    alone = json.loads(ballscrew("duty", elastic, "--json").stdout)
-    assert [check.name for check in found.checks if check.name != "preload"] == [
-        check["id"].rpartition(".")[2] for check in alone["checks"]
-    ]
-    assert found.duty is not None
-    assert found.duty.numbers["energy_lost"] == pytest.approx(alone["results"]["energy_lost"], rel=1e-9)
-
-
-@pytest.mark.slow
 def test_a_load_that_takes_the_preload_away_is_a_check_that_fails():
     """By the force of the need, and by the largest of a cycle though steady travel leaves preload."""
     tables = {"force": "8 kN", "feed": "15 m/min", "nut": "double", "preload": "2 %", "rows": "hiwin-40-20k4"}
@@ -569,22 +507,6 @@ def test_a_load_that_takes_the_preload_away_is_a_check_that_fails():
     assert [check.name for check in cycle.failed] == ["preload"]
 
 
-@pytest.mark.parametrize("share", [0.5, 1.0, 2.0])
-def test_a_lost_preload_is_above_one_and_names_no_load_beyond_the_one_applied(share):
-    """Bodies may lose the preload below the load at which rigid ones do: it fails by more than nothing, and says so."""
-    need = {"force": "8 kN", "feed": "15 m/min", "nut": "double", "preload": "2 %", "rows": "hiwin-40-20k4"}
-    found = bs.select(need, complete=True).ranked[0].candidate
-    assert float(found.balls.remaining_preload) <= 0
-    limit = 8000.0 / share
-    balls = dataclasses.replace(found.balls, lift_off=limit)
-    check = kept_preload(found.preload, 8000.0, balls)
-    assert check.holds is False
-    assert 1 < check.utilisation == pytest.approx(max(share, 1), rel=1e-12)
-    assert ("rigid bodies" in check.text) is (share >= 1)
-    said = verdict(dataclasses.replace(found, balls=balls))
-    assert f"; preload lost (rigid bodies: above {float(f'{limit:.4g}'):g} N)" in said
-
-
 MOVING = {
     "mass": "400 kg", "inclination": "90 deg", "acceleration": "3 m/s^2", "feed": "15 m/min", "stroke": "600 mm",
     "nut": "double", "preload": "5 %", "life": "20000 h", "rows": "hiwin-40-20k4",
@@ -606,13 +528,6 @@ def test_a_mass_and_an_acceleration_are_an_axis_and_a_motion():
     operation = document(found)["candidates"][0]["case"]["operation"]  # steady travel, for the other questions
     assert operation["axial_load"] == "3922.66 N"
     assert operation["screw_speed"] == "750 rpm"
-
-
-def test_a_mass_says_what_it_needs_beside_it():
-    with pytest.raises(InputError) as raised:
-        bs.select({"mass": "400 kg", "force": "5 kN", "feed": "15 m/min"})
-    places = [fault.where for fault in raised.value.faults]
-    assert places == ["motion.acceleration", "need.stroke", "operation.axial_load"]
 
 
 def test_requirements_are_checks():
@@ -688,11 +603,6 @@ def test_faults_of_a_need(tables, words):
     with pytest.raises(InputError) as raised:
         bs.select(tables)
     assert words in str(raised.value)
-
-
-def test_front_of_known_points():
-    costs = np.array([[1.0, 4.0], [2.0, 2.0], [4.0, 1.0], [3.0, 3.0], [5.0, 5.0], [math.nan, 0.0], [2.0, 2.0]])
-    assert front(costs).tolist() == [True, True, True, False, False, False, True]
 
 
 def test_the_schema_knows_what_is_read(ballscrew):

@@ -8,7 +8,7 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.questions.service.answer import EstimatedPreload, ServiceResults
 from ballscrew.questions.shared import declared
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 from support.commands import ROOT
 
 EXAMPLES = ROOT / "examples"
@@ -58,7 +58,3 @@ def test_every_number_has_a_unit(answer):
     assert {name for one in causes for name in without_unit(one, answer["units"]["alternatives"])} <= {
         "value", "instead_of",
     }  # fmt: skip
-
-
-def test_every_part_is_described():
-    assert list(undescribed(ServiceResults)) == []

@@ -16,7 +16,7 @@ from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, load, warme
 from ballscrew.questions.warm_up.self_heating import self_heating
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet
-from support.answers import undescribed, without_unit
+from support.answers import without_unit
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "warm_up.toml"
@@ -81,10 +81,6 @@ def test_a_full_bath_is_drawn_where_oil_comes_back_late(settings, starved):
 def test_every_number_has_a_unit(report):
     found = document(report)
     assert list(without_unit(found["results"], found["units"])) == []
-
-
-def test_every_part_is_described():
-    assert list(undescribed(WarmUpResults)) == []
 
 
 def test_self_heating_has_units():
