@@ -9,8 +9,7 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import LAWS, MODELS
 from ballscrew.faces.cli import main
-from ballscrew.questions import names as text
-from ballscrew.questions.names import KINDS, names
+from ballscrew.questions.names import KINDS, names, text
 
 
 def test_every_name_is_known_where_it_is_used():
