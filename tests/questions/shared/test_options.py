@@ -32,7 +32,7 @@ from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.optimise.question import OptimiseOptions
 from ballscrew.questions.records import QUESTIONS
 from ballscrew.questions.reversal.question import ReversalOptions
-from ballscrew.questions.ripple.question import RippleOptions
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.question import ListOptions, SelectOptions, TableOptions
 from ballscrew.questions.sensitivity.question import SensitivityOptions
 from ballscrew.questions.service.question import ReadingOptions, ServiceOptions

@@ -40,7 +40,7 @@ from ballscrew.questions.duty.compute import NUMBERS
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.optimise.question import OptimiseOptions
 from ballscrew.questions.reversal.question import ReversalOptions
-from ballscrew.questions.ripple.question import RippleOptions
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.sensitivity.question import SensitivityOptions
 from ballscrew.questions.service.question import ServiceOptions
 from ballscrew.questions.shared.charts import MECHANISM_COLOURS

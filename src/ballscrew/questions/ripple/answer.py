@@ -50,7 +50,7 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
-from ballscrew.questions.ripple.question import RippleOptions
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.shared.declared import from_attributes, parts_like
 from ballscrew.questions.shared.envelope import envelope
 from ballscrew.questions.shared.option_values import faults_named, flags_of
