@@ -14,7 +14,7 @@ from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.moving_balls.friction_states import work_share
 from ballscrew.questions.reversal import answer
 from ballscrew.questions.reversal.answer import ReversalResults, document, sheet
-from ballscrew.questions.reversal.question import ReversalOptions
+from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.shared import declared
 from support.answers import without_unit
 from support.commands import ROOT

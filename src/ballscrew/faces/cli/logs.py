@@ -264,7 +264,7 @@ def _fit_rows(
     from ballscrew.basis.errors import raise_if_any
     from ballscrew.cases.case_files import fitted_case
     from ballscrew.faces.sheets import files
-    from ballscrew.questions.fit import compute
+    from ballscrew.questions.fit import rows as fit_rows
     from ballscrew.questions.fit.document import document
     from ballscrew.questions.fit.log import read_options
     from ballscrew.questions.fit.sheet import of_rows
@@ -278,7 +278,7 @@ def _fit_rows(
     table = to if to is not None and _is_table(to) else None
     paths = {} if to is None or table is not None else _paths(to, cases.found, case)
     with progress("logs") as done:
-        logs = compute.logs(cases.found, rows, options, keep_going=keep_going, done=done)
+        logs = fit_rows.logs(cases.found, rows, options, keep_going=keep_going, done=done)
 
     left_out: list[Fault] = []
 
@@ -292,7 +292,7 @@ def _fit_rows(
             fitted_case.save(path, row_case.tables, case.parent, row_case.case, report.model)
 
     with progress("fits") as done:
-        fitted = compute.fits(cases.found, logs.found, options, keep_going=keep_going, each=save, done=done)
+        fitted = fit_rows.fits(cases.found, logs.found, options, keep_going=keep_going, each=save, done=done)
     by_place = {each.place: each for each in cases.found.values()}
     reports = {by_place[place].row.name: report for place, report in fitted.found.items()}
 
@@ -327,7 +327,7 @@ def _paths(folder: Path, cases: Mapping[str, RowCase], case: Path) -> dict[str, 
     """The calibrated case of each row in a folder, which has to be writable and not to be the case itself."""
     from ballscrew.basis.atomic_files import check_writable
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.fit.compute import files
+    from ballscrew.questions.fit.rows import files
 
     paths = files(cases, folder)
     for path in paths.values():

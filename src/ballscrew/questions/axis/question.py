@@ -2,27 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import Any
 
+from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.shared.options import Option
 from ballscrew.questions.shared.question import Answer, Endpoint, Question, Request, Work
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class AxisOptions:
-    """What is asked of an axis: places of its nut, m."""
-
-    at: Annotated[
-        Sequence[float],
-        Option(
-            'Place of the nut from the fixed bearing, "300 mm"; may be repeated.',
-            metavar="PLACE",
-            unit="m",
-            shown_in="mm",
-        ),
-    ] = ()
 
 
 def _prepare(request: Request) -> Work:

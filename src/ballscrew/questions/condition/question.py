@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Any
 
-from ballscrew.questions.shared.log_options import Inertia, KeepGoing, TorqueConstant, TorqueKind, headings
+from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.shared.options import Option
 from ballscrew.questions.shared.question import (
     CASE_OF_LOGS,
@@ -19,45 +17,6 @@ from ballscrew.questions.shared.question import (
     Sent,
     Work,
 )
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class ConditionOptions:
-    """What is asked of a condition; numbers in SI."""
-
-    #: That of the case is of another motion.
-    speed: Annotated[
-        float | None,
-        Option(
-            'Screw speed of the tests of a table without speeds: "100 rpm".',
-            metavar="VALUE",
-            unit="rad/s",
-            shown_in="rpm",
-            above=0,
-            hint="check the number and its unit",
-        ),
-    ] = None
-    reference_temperature: Annotated[
-        float | None,
-        Option(
-            'Temperature to reduce the torques to: "20 degC"; else the first.',
-            metavar="VALUE",
-            flag="at",
-            unit="K",
-            shown_in="degC",
-        ),
-    ] = None
-    baseline: Annotated[int, Option("Number of first tests that count as healthy.", metavar="TESTS")] = 5
-    tolerance: Annotated[float, Option("Share of the preload that may be lost.", metavar="SHARE")] = 0.1
-    false_alarms: Annotated[float, Option("Share of healthy tests that may give an alarm.", metavar="SHARE")] = 0.002
-    kind: TorqueKind = "unknown"
-    columns: Annotated[Mapping[str, str], headings('Heading of a column: torque="M_R [N m]".')] = dataclasses.field(
-        default_factory=dict[str, str]
-    )
-    torque_constant: TorqueConstant = None
-    inertia: Inertia = None
-    keep_going: KeepGoing = False
-
 
 #: Logs of one condition; more tests stand in a table.
 MOST_LOGS = 100

@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.equations import kinematics
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.reproduce.reproduction import LABELS, MEANING, TITLES
+from ballscrew.questions.reproduce.figure import LABELS, MEANING, TITLES
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import Columns, Plot
 

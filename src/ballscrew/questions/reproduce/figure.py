@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,9 +15,21 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.reproduce.preloaded_nut import DRAG, PICTURE, PreloadedNut, label_of, level
-from ballscrew.questions.reproduce.reproduction import MEANING, TITLES
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import Columns, Plot
+
+#: Short labels.
+LABELS: Mapping[str, str] = {"olaru2005": "as printed", "corrected": "corrected"}
+#: What stands above the panels.
+TITLES: Mapping[str, str] = {
+    "olaru2005": f"{LABELS['olaru2005']}: the paper's equations",
+    "corrected": f"{LABELS['corrected']}: without its misprints",
+}
+#: The same in full, for captions.
+MEANING = (
+    "As printed: the paper's equations, with the square root in λ that they need. Corrected: without its misprints, "
+    "and with the reactions that it leaves out."
+)
 
 SPEED, TORQUE, LOAD = "screw speed n (rpm)", "friction torque M$_S$ (N m)", "contact load Q of a ball (N)"
 EFFICIENCY = "efficiency η"

@@ -28,20 +28,6 @@ from ballscrew.questions.reproduce import preloaded_nut
 from ballscrew.questions.shared.report_blocks import sentence
 from ballscrew.questions.shared.text_tables import markdown_table
 
-#: Short labels.
-LABELS: Mapping[str, str] = {"olaru2005": "as printed", "corrected": "corrected"}
-#: What stands above the panels.
-TITLES: Mapping[str, str] = {
-    "olaru2005": f"{LABELS['olaru2005']}: the paper's equations",
-    "corrected": f"{LABELS['corrected']}: without its misprints",
-}
-#: The same in full, for captions.
-MEANING = (
-    "As printed: the paper's equations, with the square root in λ that they need. Corrected: without its misprints, "
-    "and with the reactions that it leaves out."
-)
-
-
 Report = Callable[[str, int, int], None]
 
 #: The claims of the short table: those with a number of the paper's own.

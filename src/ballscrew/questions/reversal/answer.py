@@ -64,7 +64,7 @@ from ballscrew.physics.moving_balls.friction_states import (
     fit_slip_elements,
     of_elements,
 )
-from ballscrew.questions.reversal.question import ReversalOptions
+from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.shared.declared import from_attributes
 from ballscrew.questions.shared.envelope import envelope
 

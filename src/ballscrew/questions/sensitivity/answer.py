@@ -39,7 +39,7 @@ from ballscrew.engine.uncertainty.sobol import Estimate
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.components.screw import MATERIALS
 from ballscrew.physics.friction.validity import IMPLAUSIBLE
-from ballscrew.questions.sensitivity.question import SensitivityOptions
+from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, OneOf, from_attributes
 from ballscrew.questions.shared.envelope import envelope
 

@@ -1,0 +1,35 @@
+"""The options of a warm-up."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Annotated
+
+from ballscrew.questions.shared.log_options import Level, OnlyGiven, number_of_samples
+from ballscrew.questions.shared.options import Option
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class WarmUpOptions:
+    """What is asked of a warm-up: hours of work and of rest, and a band."""
+
+    hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
+    cool_down: Annotated[float, Option("Hours of rest after the work; 0 if left out.", metavar="H")] = 0.0
+    band: Annotated[bool, Option("Bands of all results, by uncertain surroundings and friction.")] = False
+    samples: Annotated[int | None, number_of_samples("transients, 512")] = None
+    level: Level = None
+    only_given: OnlyGiven = False
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DriftOptions:
+    """A cycle like that of ISO 230-3 in place of the motion of the case, which has a rest of its own."""
+
+    hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
+    cool_down: Annotated[float | None, Option("Hours of rest after the work; 0 if left out.", metavar="H")] = None
+    drift_cycle: Annotated[
+        bool, Option("A cycle like that of ISO 230-3: full stroke at a share of rapid, an hour of rest.")
+    ] = False
+    feed_share: Annotated[
+        float | None, Option("With --drift-cycle: feed as a share of rapid; 0.5 if left out.", metavar="SHARE")
+    ] = None
