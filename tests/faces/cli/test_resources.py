@@ -96,11 +96,11 @@ def interrupted(patch, *arguments):
 
 def test_an_interrupt_says_how_far_it_came_and_how_to_go_on(case):
     patch = """
-        from ballscrew.questions.sensitivity import compute
+        from ballscrew.questions.sensitivity import answer
         def sensitivity(*given):
             given[-1](300, 4000)
             raise KeyboardInterrupt
-        compute.sensitivity = sensitivity
+        answer.sensitivity = sensitivity
         """
     line = "sensitivity: interrupted at 300 of 4,000, nothing is kept · run the same again"
     one_line(interrupted(patch, "sensitivity", case()), line, code=130)

@@ -22,9 +22,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import as_array
+from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
-from ballscrew.compiler.kernels.kernel import Kernel, available, code_of
+from ballscrew.compiler.kernels.kernel import Kernel, code_of
 from ballscrew.compiler.tracing.grid import Split, split
 from ballscrew.compiler.tracing.merging import Reduction, Stages, cut_at_reductions, reduced, sums_of
 from ballscrew.compiler.tracing.program import Program, Source, required_steps
@@ -223,7 +224,7 @@ def _by_an_engine(
     stages, cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
     why = why_numpy(engine)
     try:
-        if engine != "numpy" and available():
+        if engine != "numpy" and kernels.available():
             text = _text(made_of, stages, cut)
             if engine or worth_compiling(cut.points, asked, text, anew=anew):
                 result = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, *how)

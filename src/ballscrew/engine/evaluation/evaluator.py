@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from ballscrew.basis.arrays import BLOCK_SIZE, map_blocks
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any, without_unit
 from ballscrew.basis.quantities import Quantity, ends_within, within_bounds
+from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError
-from ballscrew.compiler.kernels.kernel import Kernel, available
+from ballscrew.compiler.kernels.kernel import Kernel
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
@@ -129,7 +130,7 @@ class Evaluator:
                 lambda: _recorded(plan, self._quantities, fixed, by),
             )
             why = why_numpy(engine)
-            if engine != "numpy" and available():
+            if engine != "numpy" and kernels.available():
                 sources: list[Source] = ["points"] * len(self.inputs)
                 kernel = Kernel.of(made_of.text(made_of.program, sources, self._masks), sources)
                 self._use("compiled", ASKED_FOR if engine else "the compiler is installed", KERNEL_BLOCK)
@@ -154,7 +155,7 @@ class Evaluator:
 
     def _prepare_by_ball(self, plan: Plan, fixed: Mapping[str, Any], engine: Engine | None) -> None:
         """Record and compile the friction of balls that differ."""
-        best: Engine = engine or ("compiled" if available() else "numpy")
+        best: Engine = engine or ("compiled" if kernels.available() else "numpy")
         ready = by_ball(plan, best, varying=self.inputs)
         if isinstance(ready, str) and engine is None:
             ready = by_ball(plan, "numpy", varying=self.inputs)

@@ -89,7 +89,7 @@ def fit(
     loaded = case_options.build(tables, case.parent)
 
     # pandas is slow to import: only for a good case
-    from ballscrew.questions.fit_motion.answer import is_moving
+    from ballscrew.questions.fit_motion.log import is_moving
     from ballscrew.questions.shared.charts import check_picture
 
     if picture is not None:
@@ -160,7 +160,7 @@ def _fit_torques(
 
         assumed: Sequence[str] = ()
         if options.self_heating:
-            from ballscrew.questions.fit.log import warm_log
+            from ballscrew.questions.fit.warm_log import warm_log
 
             steady, assumed = warm_log(case, steady, options.kind)
         report = dataclasses.replace(compute.fit(case, steady, options), assumed=assumed)
@@ -210,7 +210,7 @@ def _fit_motion(
     case: Case, log: Path, test: Path | None, written: Mapping[str, Any], output: Output
 ) -> tuple[Sheet, int]:
     """Fit a case to a moving log, and print the fit. Returns its sheet, and the number of rows of the log."""
-    from ballscrew.questions.fit_motion.answer import moving_log
+    from ballscrew.questions.fit_motion.log import moving_log
     from ballscrew.questions.shared.option_values import read
 
     options = read(FitMotionOptions, written)

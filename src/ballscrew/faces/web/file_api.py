@@ -48,7 +48,7 @@ from ballscrew.questions.fit import document as fit_documents
 from ballscrew.questions.fit.document import Fit
 from ballscrew.questions.fit.log import read_options, steady_log
 from ballscrew.questions.fit.sheet import sheet
-from ballscrew.questions.fit_motion.answer import is_moving
+from ballscrew.questions.fit_motion.log import is_moving
 from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.hand_over.document import HandOver, blocks, lines
 from ballscrew.questions.hand_over.options import HandOverOptions
@@ -117,7 +117,7 @@ def fit(body: LogBody, done: Deadline) -> Response:
         steady = steady_log(case, paths["log"], options, done)
     assumed: Sequence[str] = ()
     if options.self_heating:
-        from ballscrew.questions.fit.log import warm_log
+        from ballscrew.questions.fit.warm_log import warm_log
 
         steady, assumed = warm_log(case, steady, options.kind)
     report = dataclasses.replace(compute.fit(case, steady, options, done), assumed=assumed)

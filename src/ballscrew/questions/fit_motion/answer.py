@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -38,7 +37,6 @@ from ballscrew.basis.references import documentation, keys_in
 from ballscrew.cases.case_files import case_file, inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
-from ballscrew.evidence.moving_logs import reading
 from ballscrew.evidence.moving_logs.motion_fit import (
     LINEAR,
     POWER,
@@ -52,7 +50,6 @@ from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.evidence.moving_logs.screw_model import NAMES
 from ballscrew.questions.fit_motion.options import FitMotionOptions
 from ballscrew.questions.shared.declared import attributes
-from ballscrew.questions.shared.option_values import assignments
 from ballscrew.questions.shared.options import options_of
 
 #: Flags of the command line by the fields in which the fit finds faults.
@@ -77,31 +74,6 @@ def fit(case: Case, log: MovingLog, test: MovingLog | None, options: FitMotionOp
         faults = (dataclasses.replace(one, where=_FLAGS.get(one.where, one.where)) for one in error.faults)
         raise InputError(*faults) from None
     return dataclasses.replace(result, warning_records=(*result.warning_records, *case.implausible()))
-
-
-def is_moving(path: Path, columns: Mapping[str, str] | Sequence[str]) -> bool:
-    """Test whether a file is a moving log; ``columns`` are headings by name, or ``name=heading`` of a command line."""
-    named = (text.partition("=") for text in assignments(columns))
-    return reading.is_moving(path, {name.strip(): heading.strip() for name, _, heading in named if heading.strip()})
-
-
-def moving_log(case: Case, path: Path, options: FitMotionOptions, usual_gain: float | None = None) -> MovingLog:
-    """The log of a file; ``usual_gain`` (N/V) holds where neither the file nor the options give one.
-
-    Raises :class:`~ballscrew.basis.errors.InputError` for a log that cannot be used.
-    """
-    return reading.read_moving(
-        path,
-        options.columns,
-        lead=float(case.screw.lead),
-        torque_constant=options.torque_constant,
-        gain=options.gain,
-        usual_gain=usual_gain,
-        axis=options.axis,
-        period=options.period,
-        in_amperes=options.steady,
-        keep_going=options.keep_going,
-    )
 
 
 def document(case: Case, motion_fit: MotionFit) -> dict[str, Any]:
