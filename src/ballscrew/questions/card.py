@@ -1,4 +1,4 @@
-"""``ballscrew card check``: cards as text, a block for each."""
+"""``ballscrew card check``: faults of torque cards, and what they do not state; as a document and as text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``ballscrew list``: names, one line each, by group."""
+"""``ballscrew list``: the names that the program takes, by group; as a document and as text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Text of oils and greases on the terminal: a list of data sheets, and one of them over the temperature."""
+"""Oils and greases of the library: data sheets as a document and as text, one of them over the temperature."""
 
 from __future__ import annotations
 

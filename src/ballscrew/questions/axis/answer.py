@@ -1,4 +1,4 @@
-"""The loads, stiffness and speeds of an axis: computed, as a document, and as a sheet."""
+"""The loads, stiffness, lost motion and critical speeds of an axis: computed, as a document, and as a sheet."""
 
 from __future__ import annotations
 
@@ -317,6 +317,9 @@ _PLACES: Mapping[str, str] = {
     "buckling_load": "buckling load",
 }
 _COLOURS: Mapping[str, Colour] = dict(zip(SPRINGS, ("blue", "orange", "green", "grey", "purple"), strict=True))
+
+
+# -- what people see of it -------------------------------------------------------------------------
 
 
 def sheet(report: ChainReport) -> Sheet:

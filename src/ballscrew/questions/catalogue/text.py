@@ -1,4 +1,4 @@
-"""Text of rows of catalogues on the terminal: a list of them, and one with what follows from it."""
+"""Rows of catalogues and own nuts on the terminal: a list of them, and one with what follows from it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The sheet of designs side by side: what each needs against the first, its checks, and the parts of its torque."""
+"""Designs side by side: what each needs against the first, its checks, the parts of its torque; and their sheet."""
 
 from __future__ import annotations
 

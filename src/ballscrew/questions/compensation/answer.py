@@ -1,4 +1,4 @@
-"""The sheet of a compensation of positions: what it holds for, its numbers, and the warm-up that they come from."""
+"""A compensation of positions for controls: its table, its document, and its sheet."""
 
 from __future__ import annotations
 
@@ -231,6 +231,9 @@ LISTS: Mapping[str, Callable[[PositionCompensation, str], str]] = {"sinumerik": 
 
 _POSITION = Quantity("position", "m", Info("x", "position of the axis", "mm"))
 _ERROR = Quantity("error", "m", Info("e", "by how much the nut is farther along", "um"))
+
+
+# -- what people see of it -------------------------------------------------------------------------
 
 
 def sheet(result: PositionCompensation, report: WarmUpReport) -> Sheet:

@@ -1,4 +1,4 @@
-"""The sheet of a condition over time: warnings first, alarm and preload left, the tests, and their charts."""
+"""The condition of an axis over time, from its tests: alarm and preload left; its document, and its sheet."""
 
 from __future__ import annotations
 
@@ -231,6 +231,9 @@ _MOST_DRAWN = 2.5
 _TORQUE, _SPEED = quantities()["torque"], quantities()["screw_speed"]
 _PLAIN = Quantity("ratio", "1", Info("", "ratio"))
 _HOURS = Quantity("time", "s", Info("t", "time", "h"))
+
+
+# -- what people see of it -------------------------------------------------------------------------
 
 
 def sheet(case: Case, condition: Condition) -> Sheet:

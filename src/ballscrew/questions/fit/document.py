@@ -1,4 +1,4 @@
-"""Response models of the API for a fit."""
+"""The documents of a fit: its results, the columns of a log, and their models in the API; all in SI."""
 
 from __future__ import annotations
 

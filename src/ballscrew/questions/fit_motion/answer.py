@@ -1,4 +1,4 @@
-"""The sheet of a fit of a moving log: its numbers, what another filter gives, three models side by side, and charts."""
+"""A fit of a moving log: its document and its sheet, with what another filter gives and three models side by side."""
 
 from __future__ import annotations
 

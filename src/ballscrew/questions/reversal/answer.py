@@ -1,4 +1,4 @@
-"""The sheet of a reversal: where friction is back, by mechanism and by share, the models fitted to it, and curves."""
+"""Friction after a reversal: where it is back, by mechanism and by share; its document, and its sheet."""
 
 from __future__ import annotations
 
@@ -359,6 +359,9 @@ _COLOURS: Mapping[str, Colour] = {
     "ball_to_ball": "purple",
     "losses": "green",
 }
+
+
+# -- what people see of it -------------------------------------------------------------------------
 
 
 def sheet(report: ReversalReport) -> Sheet:

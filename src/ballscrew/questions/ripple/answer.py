@@ -1,4 +1,4 @@
-"""The sheet of a ripple: size and orders of the torque, as the nut is and with each fault; verdicts; curves."""
+"""The torque of a nut over the angle of its screw, with faults and for several nuts: its document, and its sheet."""
 
 from __future__ import annotations
 
@@ -340,6 +340,9 @@ _TURNS = Quantity("turns", "1", Info("n", "turns of the screw"))
 _COLOURS: tuple[Colour, ...] = ("blue", "orange", "green", "purple", "red", "grey")
 #: Orders and turns that are drawn, and the least amplitude over the greatest.
 _MOST_ORDER, _MOST_TURNS, _LEAST = 24.0, 6.0, 1e-4
+
+
+# -- what people see of it -------------------------------------------------------------------------
 
 
 def sheet(report: RippleReport) -> Sheet:

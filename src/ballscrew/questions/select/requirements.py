@@ -1,4 +1,4 @@
-"""Requirements of a need beyond what a case file says: annotated once, read from files, judged as checks."""
+"""Requirements of a need beyond what a case file says, and the objectives by which candidates are ranked."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The sheet of a sensitivity: what to find out next, each input with its measures, what is left, what was assumed."""
+"""What moves the friction torque of a case, and what to find out next: its document, and its sheet."""
 
 from __future__ import annotations
 
@@ -277,6 +277,9 @@ _COLOURS: Sequence[Colour] = ("blue", "sky")
 _PLAIN = Quantity("share", "1", Info("", "share"))
 _DIGITS = 3
 _CORRELATED = "sensitivity.correlated"
+
+
+# -- what people see of it -------------------------------------------------------------------------
 
 
 def sheet(case: Case, report: SensitivityReport) -> Sheet:
