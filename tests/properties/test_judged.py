@@ -17,7 +17,7 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.sizing.check_table import loads_at_point
 from ballscrew.physics.sizing.checks import checks
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
-from ballscrew.physics.sizing.rules import JUDGED, judged, outputs
+from ballscrew.physics.sizing.judged import JUDGED, judged, outputs
 
 POINTS = 500
 TRUTHS = {name for row in JUDGED for name in row.truths}

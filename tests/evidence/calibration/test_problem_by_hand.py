@@ -12,9 +12,10 @@ from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.evidence.calibration import problem as problems
-from ballscrew.evidence.calibration.baselines import first_loss, robust_linear, torque_per_kelvin
+from ballscrew.evidence.calibration.baselines import first_loss, robust_linear
 from ballscrew.evidence.calibration.fit import _one_sided, fit
 from ballscrew.evidence.calibration.next_test import _after, _grid, _volume
+from ballscrew.evidence.calibration.oil_temperature import torque_per_kelvin
 from ballscrew.evidence.calibration.plausibility import _is_zero_by_chance
 from ballscrew.evidence.calibration.posterior import Posterior
 from ballscrew.evidence.calibration.priors import Priors

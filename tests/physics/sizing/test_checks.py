@@ -11,9 +11,9 @@ from ballscrew.physics.components.nut import DoubleNut, OffsetLeadNut, OversizeB
 from ballscrew.physics.equations import life, shaft
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import HOUR, Check, all_hold, checks, loads_of_halves, mean_load, verdict_of
+from ballscrew.physics.sizing.dn_limits import GENERAL, MM_RPM, printed_limit, printed_limits, speed_limit_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.physics.sizing.rules import GENERAL, MM_RPM, printed_limit, printed_limits, speed_limit_of
 
 RPM = math.tau / 60
 NAMES = (

@@ -17,12 +17,6 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import Engine, engine_faults
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.evidence.calibration import baselines
-from ballscrew.evidence.calibration.baselines import (
-    MOST_TEMPERATURE_ERROR,
-    TemperatureError,
-    torque_per_kelvin,
-    usual_error,
-)
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.diagnostics import warning_records
 from ballscrew.evidence.calibration.fit_result import (
@@ -35,6 +29,12 @@ from ballscrew.evidence.calibration.fit_result import (
 )
 from ballscrew.evidence.calibration.identifiability import MAXIMUM_RELATIVE_ERROR, Identifiability, Uncertainty
 from ballscrew.evidence.calibration.jackknife import jackknife_covariance, operating_points
+from ballscrew.evidence.calibration.oil_temperature import (
+    MOST_TEMPERATURE_ERROR,
+    TemperatureError,
+    torque_per_kelvin,
+    usual_error,
+)
 from ballscrew.evidence.calibration.plausibility import verdict_records
 from ballscrew.evidence.calibration.priors import Priors
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start

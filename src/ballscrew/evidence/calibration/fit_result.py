@@ -15,8 +15,8 @@ from ballscrew.basis.quantities import Info, Quantity, Torque, Unit
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.monte_carlo import JointNormal
-from ballscrew.evidence.calibration.baselines import TemperatureError
 from ballscrew.evidence.calibration.identifiability import Identifiability, Uncertainty
+from ballscrew.evidence.calibration.oil_temperature import TemperatureError
 from ballscrew.evidence.calibration.priors import Priors
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Problem
 from ballscrew.evidence.calibration.response import Response

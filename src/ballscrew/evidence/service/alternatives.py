@@ -15,8 +15,8 @@ from ballscrew.basis.quantities import Quantity
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, allowed
-from ballscrew.evidence.calibration.baselines import VISCOSITY, torque_of_model
 from ballscrew.evidence.calibration.fit import CONSTANT_LOSS, with_constant_torque
+from ballscrew.evidence.calibration.oil_temperature import VISCOSITY, torque_of_model
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.evidence.calibration.robust import BIWEIGHT_CUTOFF, Vector, noise_of

@@ -20,7 +20,8 @@ from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution
-from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
+from ballscrew.evidence.calibration.oil_temperature import torque_of_model
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.condition_means import Means, points_of
 from ballscrew.evidence.service.posterior import FRICTION, PRELOAD

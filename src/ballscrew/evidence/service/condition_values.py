@@ -14,7 +14,8 @@ from ballscrew.basis.quantities import AngularSpeed, Temperature, TemperatureCoe
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
-from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
+from ballscrew.evidence.calibration.oil_temperature import torque_of_model
 from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.alternatives import BOUNDARY_FRICTION

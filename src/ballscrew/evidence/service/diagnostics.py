@@ -12,10 +12,11 @@ from ballscrew.basis.errors import spoken
 from ballscrew.basis.quantities import Force, Quantity
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, torque_of_model, uses_temperatures
+from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE
 from ballscrew.evidence.calibration.fit import points_of
 from ballscrew.evidence.calibration.fit_result import Rows
 from ballscrew.evidence.calibration.identifiability import long_run_covariance
+from ballscrew.evidence.calibration.oil_temperature import torque_of_model, uses_temperatures
 from ballscrew.evidence.calibration.plausibility import HIGHEST_PRELOAD
 from ballscrew.evidence.calibration.robust import MINIMUM_ROWS, Vector, autocorrelation_lag
 from ballscrew.evidence.service.posterior import FRICTION, MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior

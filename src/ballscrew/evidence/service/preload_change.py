@@ -16,8 +16,8 @@ from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95, default_distributions
 from ballscrew.engine.uncertainty.distributions import Distribution
-from ballscrew.evidence.calibration.baselines import VISCOSITY
 from ballscrew.evidence.calibration.fit import fit
+from ballscrew.evidence.calibration.oil_temperature import VISCOSITY
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.service.alternatives import Alternative, alternatives, rows_that_count
 from ballscrew.evidence.service.diagnostics import warning_records

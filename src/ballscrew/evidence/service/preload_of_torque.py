@@ -14,7 +14,8 @@ from ballscrew.basis.quantities import AngularSpeed, Temperature, Torque
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_quantile
-from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
+from ballscrew.evidence.calibration.oil_temperature import torque_of_model
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.posterior import PRELOAD
 from ballscrew.evidence.service.preload_change import held_numbers, with_preload

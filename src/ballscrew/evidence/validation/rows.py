@@ -25,18 +25,11 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.conditions import ContactConditions, Motion
 from ballscrew.physics.laws.nut_losses import Seals
+from ballscrew.physics.sizing.accuracy_factors import factors_of_makes
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import ratings_of
 from ballscrew.physics.sizing.rigidity import rigidity_iso3408
-from ballscrew.physics.sizing.rules import (
-    CHART_LINES,
-    DRAG_RULES,
-    LOADED_RULES,
-    RULES,
-    Subject,
-    factors_of_makes,
-    of_model,
-)
+from ballscrew.physics.sizing.rules import CHART_LINES, DRAG_RULES, LOADED_RULES, RULES, Subject, of_model
 from ballscrew.physics.solvers.load_distribution import ball_loads
 
 #: The share of the dynamic load rating at which THK514E defines the rigidity of a nut without preload (as recalled).

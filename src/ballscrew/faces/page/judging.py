@@ -25,8 +25,10 @@ from ballscrew.physics.friction.directions import FlankPair, MostLoadedBall, tou
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.checks import GIVEN_LIMIT, values_of_limits
 from ballscrew.physics.sizing.derived import LISTED, derived
+from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
-from ballscrew.physics.sizing.rules import GENERAL, JUDGED, documents, judged, outputs, rule_of, speed_limit_of
+from ballscrew.physics.sizing.judged import JUDGED, documents, judged, outputs
+from ballscrew.physics.sizing.rules import rule_of
 
 #: What else is computed at once: points that differ from that of the visitor in these inputs.
 BESIDE: Mapping[str, Mapping[str, float]] = {

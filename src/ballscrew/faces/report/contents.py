@@ -20,7 +20,7 @@ from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.curves import Curves, curves
 from ballscrew.faces.report.drawing import drawing
 from ballscrew.faces.sheets import report_blocks
-from ballscrew.physics.sizing.rules import GENERAL, speed_limit_of
+from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
 from ballscrew.questions.band import compute, sheet
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.band.sheet import tornado

@@ -20,11 +20,12 @@ from ballscrew.physics.sizing.check_table import HOUR as HOUR
 from ballscrew.physics.sizing.check_table import NOT_CHECKED as NOT_CHECKED
 from ballscrew.physics.sizing.check_table import NOT_JUDGED as NOT_JUDGED
 from ballscrew.physics.sizing.check_table import UNJUDGED as UNJUDGED
+from ballscrew.physics.sizing.dn_limits import GENERAL, SpeedLimit
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.physics.sizing.ratings import Ratings as Ratings
 from ballscrew.physics.sizing.ratings import ratings_of as ratings_of
-from ballscrew.physics.sizing.rules import GENERAL, Source, SpeedLimit
+from ballscrew.physics.sizing.rules import Source
 
 #: The kind of source of the formulas and limits of each check, where its inputs do not change it.
 SOURCES = cast("Mapping[str, Source]", {row.name: row.source for row in CHECKS})

@@ -8,24 +8,17 @@ oil, speed, balls or roughness.
 from __future__ import annotations
 
 import dataclasses
-import functools
 import math
-import tomllib
-from collections.abc import Callable, Mapping, Sequence
-from importlib import resources
-from typing import Any, Literal, NamedTuple, TypeAlias
+from collections.abc import Callable, Mapping
+from typing import Literal, NamedTuple, TypeAlias
 
-from ballscrew.basis import records, units
 from ballscrew.basis.arrays import where
 from ballscrew.basis.errors import plain
-from ballscrew.basis.quantities import Angle, DiameterSpeed, Force, Length, Ratio, Torque
-from ballscrew.basis.records import Judgement, is_nan
+from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
+from ballscrew.basis.records import is_nan
 from ballscrew.physics.equations import geometry, preload, transmission
 from ballscrew.physics.friction.calibrations import is_of_maker
-from ballscrew.physics.friction.verdicts import VERDICTS, WARNINGS
 from ballscrew.physics.laws.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
-from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.check_table import CHECKS, NOT_CHECKED
 
 #: "read" in its source, or derived; "recalled", as its source was not read; "estimate", where no source has it.
 Source = Literal["read", "recalled", "estimate"]
@@ -36,183 +29,6 @@ QUALIFICATIONS: Mapping[Source, str | None] = {
     "recalled": "by formulas as recalled",
     "estimate": "by an estimate",
 }
-
-
-#: All rows: verdicts, warnings and checks, each group in the order in which it is said.
-JUDGED: tuple[Judgement, ...] = (*VERDICTS, *WARNINGS, *CHECKS)
-
-
-def judged(values: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
-    """The masks and numbers of each row by its id, of those whose needs are among the values.
-
-    A value that is None is not given. Numbers are in SI; truth values are masks, and a number that stands for one is to
-    be compared with zero first. The ids are those of :data:`JUDGED`, and what a row gives is named in its document,
-    ``masks`` and ``numbers``: see :mod:`ballscrew.basis.records` for the names that are the same in all rows.
-    """
-    return records.judged(JUDGED, values)
-
-
-def outputs(result: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """What :func:`judged` returns under one name each, ``check.buckling:value``, as outputs of a recording."""
-    return {f"{row}:{name}": value for row, of_row in result.items() for name, value in of_row.items()}
-
-
-def documents() -> dict[str, Any]:
-    """The tables as they stand in JSON, without their formulas.
-
-    A row ``needs`` values by name, and ``takes`` others that may be left out: numbers are NaN then, and ``truths``
-    false. Its formula gives ``masks`` and ``numbers`` by name.
-
-    A row of ``verdicts`` and ``warnings`` is a record wherever its mask ``said`` holds, or always where it has none. A
-    row of ``checks`` is one always: where a need is not given its sentence is ``not_checked`` with ``give`` of the row
-    as ``input``, and where its mask ``judged`` is false it has a value, and neither limit nor truth. Of the
-    ``sentences`` of a row, and of a choice that stands in one, the first counts whose mask ``said`` holds, or that has
-    none. A record is of ``severity``; where its mask ``holds`` is false, of ``severity_of_failure`` if there is one. In
-    a sentence a ``number`` is shown in the unit ``shown_in`` (from ``unit``) with so many ``digits`` or ``decimals``,
-    ``words`` are given, and a ``constant`` stands as it is.
-    """
-    tables = {"verdicts": VERDICTS, "warnings": WARNINGS, "checks": CHECKS}
-    values: dict[str, Any] = {name: [row.document() for row in rows] for name, rows in tables.items()}
-    return values | {"not_checked": NOT_CHECKED}
-
-
-class FactorsOfStandard(NamedTuple):
-    """The factors that ISO 3408-4 has by grade: greatest and least."""
-
-    greatest: Ratio
-    least: Ratio
-    source: Source
-    #: The key in the bibliography.
-    reference: str
-
-
-class FactorOfMake(NamedTuple):
-    """The factor of the rigidities that a maker prints for double nuts."""
-
-    make: str
-    value: Ratio
-    source: Source
-    #: The key in the bibliography.
-    reference: str
-
-    @property
-    def words(self) -> str:
-        """Whose factor it is, with the kind of its source where it was not read."""
-        said = (
-            f"factor for accuracy {units.number(self.value, 3)}, of {self.make}'s printed rigidities of double "
-            f"nuts ({self.reference})"
-        )
-        qualified = QUALIFICATIONS[self.source]
-        if qualified is not None:
-            said = f"{said}: {qualified}"
-        return said
-
-
-def factors_of_standard() -> FactorsOfStandard:
-    """The factors by grade."""
-    table = _tables()["standard"]
-    return FactorsOfStandard(table["greatest"], table["least"], table["kind"], table["source"])
-
-
-def factors_of_makes() -> tuple[FactorOfMake, ...]:
-    """The factors of all makes that are known."""
-    return tuple(
-        FactorOfMake(table["make"], table["value"], table["kind"], table["source"]) for table in _tables()["factor"]
-    )
-
-
-def factor_of_make(make: str) -> FactorOfMake | None:
-    """The factor of a make; None where it is not known."""
-    return next((one for one in factors_of_makes() if one.make.casefold() == make.casefold()), None)
-
-
-@functools.cache
-def _tables() -> dict[str, Any]:
-    text = resources.files("ballscrew").joinpath("data/accuracy_factors.toml").read_text(encoding="utf-8")
-    return tomllib.loads(text)
-
-
-#: One millimetre times one turn a minute, in m rad/s.
-MM_RPM = 1e-3 * math.tau / 60
-
-
-class SpeedLimit(NamedTuple):
-    """The largest DN value, and whose limit it is: words that follow on "limit", and keys in the bibliography."""
-
-    value: DiameterSpeed
-    words: str
-    sources: tuple[str, ...] = ()
-    #: Of the limit for this very nut: an estimate where another nut's stands for it.
-    source: Source = "read"
-
-
-class PrintedLimit(NamedTuple):
-    """A limit as a maker prints it; an empty make stands for all, an empty recirculation for standard nuts."""
-
-    make: str
-    recirculation: str
-    value: DiameterSpeed
-    #: The diameter that the maker multiplies by: "pitch circle" or "nominal".
-    diameter: str
-    #: The key in the bibliography.
-    source: str
-
-
-#: That of standard nuts of THK514E and HIWIN2016, where that of a make is not known. Nuts that are made for speed stand
-#: more: up to 140000 mm · rpm by Thomson's list, over 160000 by NSK's.
-GENERAL = SpeedLimit(
-    70000 * MM_RPM,
-    "of standard nuts in general (THK514E, HIWIN2016): that of this make is not known, it may be more",
-    ("THK514E", "HIWIN2016"),
-    source="estimate",
-)
-
-
-def speed_limit_of(row: CatalogueRow | None) -> SpeedLimit | None:
-    """The limit of a row: its own, that of its make and recirculation, or that of standard nuts of the make.
-
-    None where nothing is known of the make.
-    """
-    if row is None:
-        return None
-    if row.speed_limit is not None:
-        listed = f"that the row lists ({row.source})"
-        return SpeedLimit(row.speed_limit, listed if row.source else "that the row lists")
-    return printed_limit(row.make, row.recirculation)
-
-
-def printed_limit(make: str, recirculation: str = "") -> SpeedLimit | None:
-    """The limit that is printed for a make and a recirculation; that of the standard nuts of the make else."""
-    wanted, kind = make.casefold(), recirculation.casefold()
-    listed = {(one.make.casefold(), one.recirculation.casefold()): one for one in printed_limits()}
-    result = (listed.get((wanted, kind)) or listed.get(("", kind))) if kind else None
-    if result is not None:
-        makes = result.make or "all makes"
-        words = f"of {makes} for this recirculation, {result.recirculation} ({result.source})"
-        return SpeedLimit(result.value, words, (result.source,))
-    standard = listed.get((wanted, "")) if wanted else None
-    if standard is None:
-        return None
-    words = f"of standard nuts of {standard.make} ({standard.source})"
-    if kind:
-        words += f": what its {recirculation} recirculation stands could not be read, it may be more"
-    return SpeedLimit(standard.value, words, (standard.source,), "estimate" if kind else "read")
-
-
-@functools.cache
-def printed_limits() -> Sequence[PrintedLimit]:
-    """All limits that could be read."""
-    text = resources.files("ballscrew").joinpath("data/speed_limits.toml").read_text(encoding="utf-8")
-    return tuple(
-        PrintedLimit(
-            table.get("make", ""),
-            table.get("recirculation", ""),
-            table["value"] * MM_RPM,
-            table["diameter"],
-            table["source"],
-        )
-        for table in tomllib.loads(text)["limit"]
-    )
 
 
 #: The efficiency that THKGeneral computes its examples with; it states 0.9 to 0.95, HIWIN2017 0.85 to 0.95.

@@ -25,9 +25,9 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.check_table import half_loads
 from ballscrew.physics.sizing.checks import Check, all_hold, checks, judged, verdict_at_point
+from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
-from ballscrew.physics.sizing.rules import speed_limit_of
 from ballscrew.questions.check.options import flags
 from ballscrew.questions.run import answer as run
 from ballscrew.questions.run.answer import RunResults, results

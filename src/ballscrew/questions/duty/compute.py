@@ -46,7 +46,7 @@ from ballscrew.physics.friction.element import FrictionElement
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
-from ballscrew.physics.sizing.rules import speed_limit_of
+from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.duty.parts import (
     TORQUE_PEAK,

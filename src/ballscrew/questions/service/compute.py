@@ -16,9 +16,9 @@ from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
 from ballscrew.engine.uncertainty.distributions import Distribution
-from ballscrew.evidence.calibration.baselines import torque_of_model
 from ballscrew.evidence.calibration.fit import points_of
 from ballscrew.evidence.calibration.fit_result import Rows
+from ballscrew.evidence.calibration.oil_temperature import torque_of_model
 from ballscrew.evidence.service.posterior import PRELOAD
 from ballscrew.evidence.service.preload_change import PreloadChange, preload_change
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate
