@@ -12,7 +12,7 @@ from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files import case_file, case_text, descriptions, fitted_case, inputs
 from ballscrew.cases.schema import law_import
 from ballscrew.cases.schema.case_schema import json_schema
-from ballscrew.cases.schema.law_import import in_options
+from ballscrew.cases.schema.option_faults import in_options
 from ballscrew.cases.screw_tables.catalogue import assumed, seal_source
 from ballscrew.cases.screw_tables.catalogue import case_text as text_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits

@@ -46,6 +46,22 @@ def test_a_complete_store_is_left_as_it_is(example, ballscrew, tmp_path):
     fault(other, "sweep.to: holds another sweep (lubricant viscosity 0.1, not 0.2) · choose another name, or remove")
 
 
+@pytest.mark.slow
+def test_damage_is_said_and_repaired(example, ballscrew, tmp_path):
+    first = ballscrew("sweep", example, *AXES, "--to", "map.zarr")
+    before = files(tmp_path / "map.zarr")
+    chunk = tmp_path / "map.zarr" / "efficiency" / "c" / "0" / "0"
+    content = chunk.read_bytes()
+    chunk.write_bytes(content[:-1] + bytes([content[-1] ^ 1]))
+    again = ballscrew("sweep", example, *AXES, "--to", "map.zarr", "--verify")
+    path = tmp_path / "map.zarr"
+    said = f"{path}: 1 block is computed again: efficiency/c/0/0 has another checksum\n"
+    assert (again.returncode, again.stdout, again.stderr) == (0, first.stdout, said + first.stderr)
+    assert files(path) == before
+    last = ballscrew("sweep", example, *AXES, "--to", "map.zarr", "--verify")
+    assert last.stderr.startswith(f"{path}: complete already, all checksums hold, nothing was computed\n")
+
+
 def test_options_of_a_store_need_one(example, ballscrew):
     fault(ballscrew("sweep", example, "--to", "map.nc", "--verify"), "--verify: needs a store · add --to map.zarr")
 
@@ -125,3 +141,18 @@ def test_a_scheduler_that_does_not_answer(example, ballscrew, tmp_path):
         process = ballscrew("sweep", example, "--to", "map.zarr", "--scheduler", address)
         fault(process, f"--scheduler: no scheduler answers ({address}", "such as tcp://host:8786")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.slow
+def test_a_sweep_on_a_cluster(example, ballscrew, tmp_path):
+    distributed = pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
+    there = {"host": "127.0.0.1", "protocol": "tcp://", "scheduler_port": 0, "dashboard_address": ":0"}
+    there |= {"n_workers": 1, "threads_per_worker": 2, "processes": False, "local_directory": tmp_path / "scratch"}
+    with distributed.LocalCluster(**there) as cluster:
+        address = cluster.scheduler_address
+        process = ballscrew("sweep", example, *AXES, "--to", "there.zarr", "--scheduler", address)
+    assert process.returncode == 0, process.stderr
+    here = ballscrew("sweep", example, *AXES, "--to", "here.zarr")
+    assert process.stderr == here.stderr
+    assert process.stdout == here.stdout.replace("here", "there")
+    assert files(tmp_path / "here.zarr") == files(tmp_path / "there.zarr")

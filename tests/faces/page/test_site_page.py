@@ -178,6 +178,17 @@ def test_cases_made_at_random_are_those_of_the_program(visit, kind):
             assert_is_of_the_program(moved)
 
 
+@pytest.mark.parametrize("start", [RIGID, ELASTIC])
+def test_the_nut_begins_with_its_most_loaded_ball(visit, start):
+    here = visit().open(start)
+    here.page.locator("[data-view=nut]").click()
+    results = documents.run(run(case_file.build(here.state()["case"])))["results"]
+    for name in ("maximum_pressure", "largest_contact_load", "minimum_film_parameter"):
+        shown = here.page.locator(f"#ball-numbers [data-name={name}]").get_attribute("value")
+        assert float(shown) == pytest.approx(results[name], rel=1e-9)
+    assert not here.page.locator("#numbers").is_visible()  # those of the torque are its own view's
+
+
 FULL_BATH = """() => {
   const { marks } = document.querySelector("#torque-chart .plot").drawn.figure;
   const curve = marks.find(({ name }) => name === "in a full bath of oil");

@@ -27,7 +27,8 @@ from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.references import bibliography as entries
 from ballscrew.basis.units import DIGITS
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.named_calibration import by_rules, vendor_rows_like
+from ballscrew.cases.case_files.makers_rules import by_rules
+from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.cli import sharing
 from ballscrew.faces.report import contents, curve_figures, input_tables

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.physics.components.materials import LAND, Arc, contact_width, land_height
+from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
+from ballscrew.physics.components.materials import LAND
 from ballscrew.physics.equations import geometry
 
 RADIUS, CONFORMITY, ANGLE = 3e-3, 0.54, math.radians(42.0)

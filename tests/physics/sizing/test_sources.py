@@ -11,7 +11,7 @@ from ballscrew.physics.sizing.accuracy_factors import factor_of_make, factors_of
 from ballscrew.physics.sizing.checks import SOURCES, Check, checks
 from ballscrew.physics.sizing.dn_limits import printed_limit, speed_limit_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
-from ballscrew.physics.sizing.rules import QUALIFICATIONS
+from ballscrew.physics.sizing.sources import QUALIFICATIONS
 
 #: The source of each check, and the reason.
 EXPECTED = {

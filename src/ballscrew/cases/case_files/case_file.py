@@ -37,7 +37,7 @@ from ballscrew.cases.schema.case_schema import (
 )
 from ballscrew.cases.schema.duty_schema import DUTY_TABLES, SUPPORT_TABLES
 from ballscrew.cases.schema.fields import NutSpeed, is_nut_speed
-from ballscrew.cases.schema.law_import import in_options
+from ballscrew.cases.schema.option_faults import in_options
 from ballscrew.cases.schema.reader import Reader
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES
 from ballscrew.physics.components.materials import Lubricant, Material

@@ -9,7 +9,8 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.lubricants import described
-from ballscrew.cases.case_files.named_calibration import by_rules, make_of, vendor_rows_like
+from ballscrew.cases.case_files.makers_rules import by_rules, make_of
+from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.schema.case_schema import LAWS, MODELS, name_of_law
 from ballscrew.cases.screw_tables.nut_kinds import kind_of

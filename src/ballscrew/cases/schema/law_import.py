@@ -12,33 +12,12 @@ import importlib
 import re
 import reprlib
 import sys
-from collections.abc import Collection, Generator, Iterable, Mapping
+from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import Any
 
-from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, to_set
+from ballscrew.basis.errors import MISSING, Fault, InputError, nearest
 from ballscrew.physics.friction.law_names import coefficients
-
-#: The options that each command with a case has, by the field that they set.
-OPTIONS: Mapping[str, str] = {"model.calibration": "--calibration", "model.name": "--model"}
-
-
-def in_options(faults: Iterable[Fault], given: Collection[str], options: Mapping[str, str] = OPTIONS) -> list[Fault]:
-    """Faults of fields that options gave, or that are missing beside such, with options in place of fields."""
-    sections = {place.partition(".")[0] for place in given}
-    return [_in_options(fault, given, sections, options) for fault in faults]
-
-
-def _in_options(fault: Fault, given: Collection[str], sections: Collection[str], options: Mapping[str, str]) -> Fault:
-    option, section = options.get(fault.where), fault.where.partition(".")[0]
-    if option is None or not (fault.where in given or (fault.problem == MISSING and section in sections)):
-        return fault
-    remedy = fault.remedy
-    for field, name in options.items():
-        if field.partition(".")[0] == section:
-            remedy = remedy.replace(to_set(field), f"{name} ")
-    return dataclasses.replace(fault, where=option, remedy=remedy)
-
 
 #: A law of a module, as it is written.
 OUTSIDE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_][\w.]*")

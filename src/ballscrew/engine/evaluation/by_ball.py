@@ -33,24 +33,19 @@ from ballscrew.compiler.tracing.steps import REDUCTIONS
 from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.compiler.tracing.written import as_document, can_be_written, from_document
 from ballscrew.engine.evaluation.axes import ends
+from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, PAYS, Engine, why_numpy, worth_compiling
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
 from ballscrew.engine.evaluation.recordings import Recording, Structures
 from ballscrew.engine.evaluation.structure_kernels import MOST_STEPS_OPTIMISED, keep, kept, name_of
 from ballscrew.engine.evaluation.structures import (
-    ASKED_FOR,
-    KNOWN,
     OF_BALLS,
-    PAYS,
-    Engine,
     groups_by_ball,
     inputs_of_structure,
     numbers_alone,
     outputs_of_structure,
     recorded_structure,
     structure_key,
-    why_numpy,
-    worth_compiling,
 )
 from ballscrew.physics.friction.loaded_balls import loads_of
 

@@ -29,14 +29,8 @@ from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
 from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.engine.evaluation.axes import ends
 from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
-from ballscrew.engine.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
-from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.recordings import Recording, recording
-from ballscrew.engine.evaluation.structure_kernels import BLOCK_OF_POINTS, Structure, StructureKernel
-from ballscrew.engine.evaluation.structures import (
+from ballscrew.engine.evaluation.engines import (
     ASKED_FOR,
-    ENOUGH_TO_FOLD,
     KNOWN,
     PAYS,
     SWEEP_ENGINES,
@@ -47,6 +41,12 @@ from ballscrew.engine.evaluation.structures import (
     why_numpy,
     worth_compiling,
 )
+from ballscrew.engine.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import Recording, recording
+from ballscrew.engine.evaluation.structure_kernels import BLOCK_OF_POINTS, Structure, StructureKernel
+from ballscrew.engine.evaluation.structures import ENOUGH_TO_FOLD
 
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
 FEWEST_COLUMNS = 256

@@ -23,11 +23,11 @@ from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
 from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
 from ballscrew.engine.evaluation.derivatives import JAX_INSTEAD
+from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, Engine, engine_faults, why_numpy
 from ballscrew.engine.evaluation.outputs import OPERATION, Output, slope_name
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.evaluation.recordings import Recording, recording
 from ballscrew.engine.evaluation.structure_kernels import BLOCK_OF_POINTS, Structure, StructureKernel
-from ballscrew.engine.evaluation.structures import ASKED_FOR, KNOWN, Engine, engine_faults, why_numpy
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel

@@ -13,9 +13,9 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Plan
-from ballscrew.engine.evaluation.structures import Engine
 from ballscrew.engine.sweeps.cluster import check_cluster, fill_on_cluster
 from ballscrew.engine.sweeps.store import Store, stopping_cleanly
 from ballscrew.engine.sweeps.store_files import WHERE, Content, Lock, refuse_unsafe

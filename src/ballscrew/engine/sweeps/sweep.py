@@ -11,9 +11,9 @@ import xarray as xr
 
 from ballscrew.basis.displayed import notebook
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.engine.evaluation.engines import SweepEngine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.structures import SweepEngine
 from ballscrew.engine.sweeps.stream import stream
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut

@@ -15,9 +15,9 @@ from ballscrew.basis.errors import (
     nearest,
 )
 from ballscrew.engine.evaluation.comparison import Candidate
+from ballscrew.engine.evaluation.engines import SweepEngine, engine_faults
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.evaluation.structures import SweepEngine, engine_faults
 from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault, within
 from ballscrew.engine.uncertainty.monte_carlo import Joint, Sampler, sobol_sequence
 from ballscrew.physics.equations import transmission

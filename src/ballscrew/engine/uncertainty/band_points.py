@@ -12,9 +12,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew.engine.evaluation.comparison import Candidate
+from ballscrew.engine.evaluation.engines import SweepEngine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.structures import SweepEngine
 from ballscrew.engine.uncertainty.band_evaluation import (
     DERIVED_OUTPUTS,
     BandEvaluator,

@@ -18,8 +18,8 @@ from ballscrew.basis.displayed import Displayed
 from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import AngularSpeed, Force
 from ballscrew.engine.evaluation.comparison import Candidate
+from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.structures import Engine
 from ballscrew.engine.uncertainty.band_evaluation import (
     DERIVED_OUTPUTS,
     POSITIVE,

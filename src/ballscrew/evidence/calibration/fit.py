@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
+from ballscrew.engine.evaluation.engines import Engine, engine_faults
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.evaluation.structures import Engine, engine_faults
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.evidence.calibration import baselines
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel

@@ -16,10 +16,10 @@ from ballscrew.basis.errors import (
     nearest,
 )
 from ballscrew.engine.evaluation.derivatives import Slopes, slopes_of
+from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.structures import Engine
 from ballscrew.physics.components.materials import TEMPERATURE
 
 #: The torques that every reading of a log is made of, in this order.

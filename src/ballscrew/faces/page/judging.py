@@ -20,8 +20,8 @@ from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import BALL, Function, Module, compiled, described
 from ballscrew.faces.page import kinds
-from ballscrew.physics.components.materials import Arc, contact_width, land_height
-from ballscrew.physics.friction.directions import FlankPair, MostLoadedBall, touched
+from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
+from ballscrew.physics.friction.touching import FlankPair, MostLoadedBall, touched
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.checks import GIVEN_LIMIT, values_of_limits
 from ballscrew.physics.sizing.derived import LISTED, derived

@@ -243,7 +243,7 @@ function showBall(answer) {
   const numbers = {
     ...answer.results,
     maximum_pressure: greatestPressure(answer),
-    minimum_film_parameter: leastFilm(answer),
+    minimum_film_parameter: answer.results.minimum_film_parameter ?? leastFilm(answer),
     minimum_film_thickness: Math.min(screw.minimum_film_thickness ?? NaN, nut.minimum_film_thickness ?? NaN),
   };
   const rows = OF_BALL.filter((name) => Number.isFinite(numbers[name])).map((name) =>

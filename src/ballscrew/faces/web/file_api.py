@@ -40,8 +40,8 @@ from ballscrew.faces.web.bodies import (
     refuse_nulls,
 )
 from ballscrew.faces.web.endpoint_parts import always, as_json, heavy, post, with_sheet
-from ballscrew.faces.web.files import written
 from ballscrew.faces.web.request_queue import Deadline
+from ballscrew.faces.web.sent_files import written
 from ballscrew.files.torque_logs.preview import preview
 from ballscrew.questions.fit import compute, document
 from ballscrew.questions.fit import document as fit_documents

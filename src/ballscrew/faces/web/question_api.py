@@ -24,9 +24,9 @@ from ballscrew.faces.web.bodies import (
     refuse_paths,
 )
 from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, post, with_sheet
-from ballscrew.faces.web.files import written
 from ballscrew.faces.web.limits import check_options
 from ballscrew.faces.web.request_queue import Deadline
+from ballscrew.faces.web.sent_files import written
 from ballscrew.questions.records import QUESTIONS
 from ballscrew.questions.shared.options import body_fields, options_of
 from ballscrew.questions.shared.question import Question, Request, Sent

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Ratio
-from ballscrew.physics.sizing.rules import QUALIFICATIONS, Source
+from ballscrew.physics.sizing.sources import QUALIFICATIONS, Source
 
 
 class FactorsOfStandard(NamedTuple):

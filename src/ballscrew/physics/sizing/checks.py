@@ -25,7 +25,7 @@ from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.physics.sizing.ratings import Ratings as Ratings
 from ballscrew.physics.sizing.ratings import ratings_of as ratings_of
-from ballscrew.physics.sizing.rules import Source
+from ballscrew.physics.sizing.sources import Source
 
 #: The kind of source of the formulas and limits of each check, where its inputs do not change it.
 SOURCES = cast("Mapping[str, Source]", {row.name: row.source for row in CHECKS})

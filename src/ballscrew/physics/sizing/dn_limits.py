@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ballscrew.basis.quantities import DiameterSpeed
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.rules import Source
+from ballscrew.physics.sizing.sources import Source
 
 #: One millimetre times one turn a minute, in m rad/s.
 MM_RPM = 1e-3 * math.tau / 60

@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Mapping
-from typing import Literal, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from ballscrew.basis.arrays import where
 from ballscrew.basis.errors import plain
@@ -19,17 +19,6 @@ from ballscrew.basis.records import is_nan
 from ballscrew.physics.equations import geometry, preload, transmission
 from ballscrew.physics.friction.calibrations import is_of_maker
 from ballscrew.physics.laws.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
-
-#: "read" in its source, or derived; "recalled", as its source was not read; "estimate", where no source has it.
-Source = Literal["read", "recalled", "estimate"]
-
-#: What stands beside a verdict; nothing where the source was read.
-QUALIFICATIONS: Mapping[Source, str | None] = {
-    "read": None,
-    "recalled": "by formulas as recalled",
-    "estimate": "by an estimate",
-}
-
 
 #: The efficiency that THKGeneral computes its examples with; it states 0.9 to 0.95, HIWIN2017 0.85 to 0.95.
 USUAL_EFFICIENCY = 0.9

@@ -17,7 +17,7 @@ from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.named_calibration import make_of
+from ballscrew.cases.case_files.makers_rules import make_of
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.cases.schema.case_schema import LAWS
 from ballscrew.engine.evaluation.comparison import Candidate

@@ -16,7 +16,7 @@ from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantitie
 from ballscrew.basis.records import Record, Severity, documents
 from ballscrew.cases.case_files import case_file, descriptions, inputs, nut_tables
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.schema.law_import import OPTIONS, in_options
+from ballscrew.cases.schema.option_faults import OPTIONS, in_options
 from ballscrew.cases.schema.reader import Reader
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_of

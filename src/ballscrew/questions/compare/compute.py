@@ -13,7 +13,7 @@ from ballscrew.basis.quantities import Info, Ratio, Torque, Unit, quantities_of
 from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.inputs import of_case
-from ballscrew.cases.case_files.named_calibration import subject_of
+from ballscrew.cases.case_files.makers_rules import subject_of
 from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.engine.evaluation.comparison import Candidate, ComparedRule, Comparison, OfBalls, Row, compare, same_law
 from ballscrew.engine.evaluation.comparison import Spread as TwoRows

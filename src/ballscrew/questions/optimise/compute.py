@@ -17,7 +17,7 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
-from ballscrew.engine.evaluation.structures import Engine
+from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew

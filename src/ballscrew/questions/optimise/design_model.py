@@ -19,9 +19,9 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
+from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.evaluation.structures import Engine
 from ballscrew.engine.uncertainty.monte_carlo import Sampler, sobol_sequence
 from ballscrew.physics.components.materials import STEEL_DENSITY
 from ballscrew.physics.components.screw import BallScrew

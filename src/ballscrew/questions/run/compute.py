@@ -18,13 +18,13 @@ from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Info, Quantity, Ratio, Unit, quantities_of
 from ballscrew.basis.records import Judgement, Record, said
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.named_calibration import BY_RULE, OfRule, by_rules
+from ballscrew.cases.case_files.makers_rules import BY_RULE, OfRule, by_rules
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction import starvation
-from ballscrew.physics.friction.directions import most_loaded_ball, touched
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
+from ballscrew.physics.friction.touching import most_loaded_ball, touched
 from ballscrew.physics.friction.verdicts import (
     PRELOAD_ABOVE_RATING,
     PRELOAD_LOST,

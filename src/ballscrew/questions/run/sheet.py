@@ -23,7 +23,7 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.named_calibration import BY_RULE
+from ballscrew.cases.case_files.makers_rules import BY_RULE
 from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, kind_of
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult

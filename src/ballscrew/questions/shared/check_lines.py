@@ -13,7 +13,7 @@ from ballscrew.basis.output.sheet import Cell, Number, Share, Table
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.sizing.checks import Check
-from ballscrew.physics.sizing.rules import QUALIFICATIONS
+from ballscrew.physics.sizing.sources import QUALIFICATIONS
 
 #: The display units of the checks, by SI unit.
 _SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m", "N/m": "N/um"}

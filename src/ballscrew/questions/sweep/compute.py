@@ -23,6 +23,7 @@ from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.schema.case_schema import name_of_law
+from ballscrew.engine.evaluation.engines import FEW_POINTS
 from ballscrew.engine.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
@@ -33,7 +34,6 @@ from ballscrew.engine.evaluation.outputs import (
 )
 from ballscrew.engine.evaluation.plan import STARVED, Configuration, starvation_of
 from ballscrew.engine.evaluation.plan import Plan as Swept
-from ballscrew.engine.evaluation.structures import FEW_POINTS
 from ballscrew.engine.sweeps import sweep as sweeps
 from ballscrew.engine.sweeps.cluster import cluster_client
 from ballscrew.engine.sweeps.stream import stream
