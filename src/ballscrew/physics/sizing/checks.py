@@ -212,7 +212,7 @@ def checks(
     ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
     ``maximum_pressure`` is that of the most loaded contact. The DN value is held against that of ``limits``, if one is
     set there, else against ``speed_limit``, that of the make of the nut, else against a general one
-    (:data:`~ballscrew.physics.sizing.rules.GENERAL`); the text says which. Without a ``root_diameter`` that of
+    (:data:`~ballscrew.physics.sizing.dn_limits.GENERAL`); the text says which. Without a ``root_diameter`` that of
     the groove is taken. ``computed_ratings`` names the ratings that are not listed but follow from the geometry, by
     ISO3408-5 as recalled: the check of the static one is then of that source, too.
     Raises :class:`~ballscrew.basis.errors.InputError` for values that are not positive, and a largest load below the
