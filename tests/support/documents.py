@@ -12,8 +12,11 @@ ROUNDING = 1e-10
 ITERATED = 1e-6
 
 
-def differences(found: Any, expected: Any, relative: float = ROUNDING, at: str = "") -> list[str]:
-    """Where two documents differ: numbers by more than rounding, all else at all."""
+def differences(found: Any, expected: Any, relative: float = ROUNDING, at: str = "", largest: float = 0.0) -> list[str]:
+    """Where two documents differ: numbers by more than rounding, all else at all.
+
+    The numbers of a curve are rounded by the size of its largest: where it goes through zero, those beside it are not.
+    """
     if type(found) is not type(expected):
         kinds = {type(found), type(expected)}
         if kinds != {int, float}:  # 1.0 may be written as 1
@@ -27,12 +30,15 @@ def differences(found: Any, expected: Any, relative: float = ROUNDING, at: str =
     if isinstance(expected, list):
         if len(found) != len(expected):
             return [f"{at}: {len(found)} entries are not {len(expected)}"]
-        pairs = zip(found, expected, strict=True)
+        sizes = [abs(one) for one in expected if isinstance(one, float) and math.isfinite(one)]
         return [
-            line for i, (one, other) in enumerate(pairs) for line in differences(one, other, relative, f"{at}[{i}]")
+            line
+            for i, (one, other) in enumerate(zip(found, expected, strict=True))
+            for line in differences(one, other, relative, f"{at}[{i}]", max(sizes, default=0.0))
         ]
     if isinstance(expected, float) and isinstance(found, (int, float)) and math.isfinite(expected):
-        return [] if math.isclose(found, expected, rel_tol=relative) else [f"{at}: {found!r} is not {expected!r}"]
+        same = math.isclose(found, expected, rel_tol=relative, abs_tol=relative * largest)
+        return [] if same else [f"{at}: {found!r} is not {expected!r}"]
     return [] if found == expected else [f"{at}: {found!r} is not {expected!r}"]
 
 

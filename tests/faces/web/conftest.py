@@ -184,7 +184,14 @@ class Visit:
         self.expected: tuple[str, ...] = ()
         #: By how much what it shows has moved while it was loaded.
         self.shift = 0.0
-        self._listeners = {"request": self._asked, "console": self._heard, "pageerror": self._failed}
+        self._unanswered = 0
+        self._listeners = {
+            "request": self._asked,
+            "requestfinished": self._answered,
+            "requestfailed": self._answered,
+            "console": self._heard,
+            "pageerror": self._failed,
+        }
         for event, listener in self._listeners.items():
             page.on(event, listener)
 
@@ -198,6 +205,10 @@ class Visit:
 
     def _asked(self, request: Request) -> None:
         self.requests.append(request.url)
+        self._unanswered += 1
+
+    def _answered(self, _request: Request) -> None:
+        self._unanswered -= 1
 
     def _heard(self, message: ConsoleMessage) -> None:
         if message.type in ("error", "warning"):
@@ -250,6 +261,14 @@ class Visit:
     def rest(self, milliseconds: int) -> Visit:
         """Wait in the page itself: its timers that are due before have run then, however slow the machine is."""
         self.page.evaluate("(time) => new Promise((done) => setTimeout(done, time))", milliseconds)
+        return self
+
+    def quiet(self) -> Visit:
+        """Wait until everything is answered and the page asks for nothing more by itself."""
+        asked = -1
+        while self._unanswered or asked != len(self.requests):
+            asked = len(self.requests)
+            self.rest(500)
         return self
 
     def type(self, field: str, text: str) -> Visit:

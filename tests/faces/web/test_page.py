@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from ballscrew.faces.cli.main import app
-from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.balls import MECHANISMS
 
 DOUBLE = "rexroth-40x10x6-6-double"
 #: Of fewer balls: its band takes a second, and not two.
@@ -129,7 +129,7 @@ def test_units_do_not_drift(visit):
     assert here.page.locator("#f-operation-axial_load").input_value() == "1234.5678901"  # its unit stands beside it
     here.type("lubricant.temperature", "40")
     before, numbers = here.values(), here.numbers()
-    here.rest(400)
+    here.quiet()
     asked, address = here.posts(), here.page.url
     for _ in range(2):
         here.page.locator("#system").select_option("inch")
@@ -142,7 +142,7 @@ def test_units_do_not_drift(visit):
         here.unit("lubricant.temperature", "K")
         here.page.locator("#system").select_option("metric")
         assert here.values() == before
-    here.rest(400)
+    here.quiet()
     assert here.numbers() == numbers
     assert here.posts() == asked  # nothing of that needs the server
     assert here.page.url == address

@@ -82,7 +82,7 @@ def test_a_link_within_the_page_takes_the_place_of_views_that_were_left(visit):
 
 
 def test_another_view_asks_the_server_for_nothing_that_is_known(visit):
-    here = visit().open("#A=paper&band=0").rest(300)
+    here = visit().open("#A=paper&band=0").quiet()
     asked = here.posts()
     here.go("nut").go("checks").go("torque")
     here.page.go_back()
