@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.text_tables import markdown_table
 from effect_study import curves, law_figures

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import ballscrew as bs
 from ballscrew.axis.thermal.friction_map import COLDEST
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.friction.starvation import differs
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.run.compute import run
@@ -94,7 +95,7 @@ def answers(degrees: float) -> Answers:
     return {head: cell for question in QUESTIONS for head, cell in question(degrees).items()}
 
 
-def _vertical_axis(degrees: float) -> case_file.Case:
+def _vertical_axis(degrees: float) -> Case:
     tables = case_file.read(EXAMPLES / "vertical_axis.toml")
     return case_file.build(case_file.override(tables, [f"lubricant.temperature={degrees} degC"]), moves=True)
 

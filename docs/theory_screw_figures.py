@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from ballscrew.evidence.papers.olaru2005.closures import repairs
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.equations import life, preload, slip, transmission
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.solvers.line_slip import creep_of_lines, pure_rolling_lines
 from ballscrew.questions.shared import charts
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM

@@ -17,7 +17,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
 from ballscrew.evidence.validation.entries import Entry, Point, may_be_fitted
 from ballscrew.faces.sheets import pictures
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band.sheet import sheet
 from ballscrew.questions.shared import charts

@@ -16,8 +16,9 @@ from typing import Any
 from ballscrew.evidence.papers.olaru2005 import case as paper
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
-from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce
 from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
 from ballscrew.physics.laws.inlet import Inlet

@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.shared import charts
 from effect_study import curves
 from effect_study.cases import Case, Effect, effects

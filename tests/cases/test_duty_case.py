@@ -9,6 +9,7 @@ from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import SCurve, Segments, Sine, Trapezoid
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.inputs import inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.physics.solvers import load_distribution
 from ballscrew.questions.duty.compute import duty
@@ -97,7 +98,7 @@ def test_segments_have_their_own_units_and_names():
     assert (press.name, press.duration, press.speed, press.force) == ("press", 5.0, pytest.approx(0.2 / 60), 2000.0)
     assert press.temperature == pytest.approx(323.15)
     assert back.distance == pytest.approx(-0.01)
-    again = case_file.inputs(case)["motion"]
+    again = inputs(case)["motion"]
     assert again["segment"][0]["name"] == "press"
     assert again["kind"] == "segments"
 
@@ -124,7 +125,7 @@ def test_without_an_operating_point_it_has_that_of_steady_travel():
     case = built(SCREW + MOVING, 'axis.inclination="90 deg"')
     assert case.operation.axial_load == pytest.approx(400 * 9.80665)
     assert case.operation.screw_speed == pytest.approx(2 * math.pi * 0.5 / 0.01)
-    assert "operation" not in case_file.inputs(case)
+    assert "operation" not in inputs(case)
 
 
 def test_a_case_of_other_commands_may_have_a_motion():
@@ -132,7 +133,7 @@ def test_a_case_of_other_commands_may_have_a_motion():
     assert plain.axis is None
     assert moving.operation == plain.operation
     assert moving.axis.mass == 400
-    assert {k: v for k, v in case_file.inputs(moving).items() if k not in ("axis", "motion")} == case_file.inputs(plain)
+    assert {k: v for k, v in inputs(moving).items() if k not in ("axis", "motion")} == inputs(plain)
 
 
 def test_the_example_of_an_efficiency_can_be_written():
@@ -146,7 +147,7 @@ def test_one_efficiency_needs_no_oil():
     text = SCREW.partition("[lubricant]")[0] + MOVING
     case = built(text, "model.name=constant-efficiency", "model.efficiency=0.9")
     assert case.efficiency == 0.9
-    assert case_file.inputs(case)["model"] == {"name": "constant-efficiency", "efficiency": 0.9}
+    assert inputs(case)["model"] == {"name": "constant-efficiency", "efficiency": 0.9}
     assert "lubricant: missing section" in faults(text)
     assert (
         built(SCREW + MOVING, "model.name=constant-efficiency", "model.efficiency=0.9", model="corrected").efficiency

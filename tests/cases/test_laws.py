@@ -12,14 +12,16 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.inputs import inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.laws import ball_chain, friction, rolling
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.slip import curvature_slip
 
-EVERY_LAW = [(slot, name) for slot, known in case_schema.LAWS.items() for name in known]
+EVERY_LAW = [(slot, name) for slot, known in LAWS.items() for name in known]
 WITH_COEFFICIENTS = [(slot, name) for slot, name in EVERY_LAW if case_schema.coefficients_of(slot, name)]
 
 
@@ -45,23 +47,23 @@ def torque(case):
     return float(case.model(case.screw, case.lubricant, **point).screw_torque)
 
 
-@pytest.mark.parametrize("slot", case_schema.LAWS)
+@pytest.mark.parametrize("slot", LAWS)
 def test_laws_of_all_models_have_names(slot):
     for model in presets().values():
-        assert case_schema.name_of_law(slot, getattr(model, slot)) in case_schema.LAWS[slot]
+        assert case_schema.name_of_law(slot, getattr(model, slot)) in LAWS[slot]
 
 
 def test_every_slot_with_a_choice_is_there():
     slots = {field.name for field in dataclasses.fields(bs.FrictionModel)} - set(
         case_schema.fields_of(bs.FrictionModel)
     )
-    assert set(case_schema.LAWS) == slots - {"name", "contact_load"}
+    assert set(LAWS) == slots - {"name", "contact_load"}
 
 
 @pytest.mark.parametrize(("slot", "name"), EVERY_LAW)
 def test_each_law_by_name(slot, name, tables):
     """A name is the law with its own coefficients, alone or as ``law`` of a table, and it works."""
-    law, known = getattr(model_of(tables, **{slot: name}), slot), case_schema.LAWS[slot][name]
+    law, known = getattr(model_of(tables, **{slot: name}), slot), LAWS[slot][name]
     assert law is known or (type(law) is known and vars(law) == vars(known()))
     assert type(getattr(model_of(tables, **{slot: {"law": name}}), slot)) is type(law)
     assert case_schema.name_of_law(slot, law) == name
@@ -73,13 +75,13 @@ def test_each_law_by_name(slot, name, tables):
 def test_each_coefficient(slot, name, tables):
     """All coefficients of a law can be set, in their units, and come back with the inputs."""
     known = case_schema.coefficients_of(slot, name)
-    defaults = case_schema.LAWS[slot][name]()
+    defaults = LAWS[slot][name]()
     values = {field: 0.9 * getattr(defaults, field) for field in known}
     written = {f: values[f] if known[f].unit == "1" else f"{values[f]} {known[f].unit}" for f in known}
     law = getattr(model_of(tables, **{slot: {"law": name, **written}}), slot)
     assert vars(law) == pytest.approx(values)
     tables["model"] = {"name": "reference", slot: {"law": name, **written}}
-    shown = case_file.inputs(case_file.build(tables))["model"][slot]
+    shown = inputs(case_file.build(tables))["model"][slot]
     assert shown.pop("law") == name
     assert shown == pytest.approx(values)
 
@@ -270,7 +272,7 @@ def accepts(rule, value):
 def slots():
     document = json.loads(json.dumps(case_schema.json_schema()))
     properties = document["$defs"]["Model"]["properties"]
-    assert set(case_schema.LAWS) < set(properties)
+    assert set(LAWS) < set(properties)
     return properties
 
 

@@ -14,11 +14,13 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.inputs import inputs, references
 from ballscrew.cases.schema.case_schema import NUT_TABLES, json_schema, validated
-from ballscrew.cases.screw_tables.nut_kinds import NUTS, kind_of
+from ballscrew.cases.screw_tables.nut_kinds import kind_of
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.physics.components.nut import Bodies, Deviations
 from ballscrew.physics.laws.nut_losses import LipSeals, ReturnBraking, Seals, ShearedOil, SpinUp
+from ballscrew.physics.sizing.listed_nut import NUTS
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.run.compute import run
 
@@ -63,7 +65,7 @@ def test_a_row_is_the_screw_and_what_is_given_wins():
     assert (changed.screw.screw_conformity, changed.screw.nut_conformity) == (0.52, 0.54)
     assert changed.screw.ball_material.young_modulus == pytest.approx(300e9)
     assert changed.listed["root_diameter"] == pytest.approx(0.034)
-    assert case_file.inputs(case)["screw"]["catalogue"] == ROW.name
+    assert inputs(case)["screw"]["catalogue"] == ROW.name
 
 
 @pytest.mark.parametrize("kind", NUTS)
@@ -75,7 +77,7 @@ def test_every_kind_of_nut(kind):
     alone = bs.SingleNut(angle_under_load=True) if kind == "single" else NUTS[kind](3000.0)
     assert case.nut == case.screw.nut == alone
     assert run(case).friction.screw_torque == friction(case, alone).screw_torque
-    assert case_file.inputs(case)["nut"]["type"] == kind
+    assert inputs(case)["nut"]["type"] == kind
 
 
 def test_a_preload_in_percent_is_of_the_dynamic_rating():
@@ -122,11 +124,11 @@ def test_bodies_deviations_and_losses_are_those_of_python():
     assert found.screw_torque == pytest.approx(float(expected.screw_torque), rel=1e-12)
     assert found.loads.rigidity == pytest.approx(float(expected.loads.rigidity), rel=1e-12)
     assert found.contributions["seals"] == 0.4
-    inputs = case_file.inputs(case)
-    assert inputs["losses"]["recirculation"] == {"law": "force", "return_force": 1.0, "returns": 3}
-    assert inputs["bodies"]["same_side"] is False
+    given = inputs(case)
+    assert given["losses"]["recirculation"] == {"law": "force", "return_force": 1.0, "returns": 3}
+    assert given["bodies"]["same_side"] is False
     expected = {"ball_diameter": pytest.approx(0.3e-6), "lead": pytest.approx(1e-6), "seed": 7, "groove": 0.0}
-    assert inputs["deviations"] == expected
+    assert given["deviations"] == expected
 
 
 def test_losses_by_another_law_and_without_a_nut():
@@ -135,8 +137,8 @@ def test_losses_by_another_law_and_without_a_nut():
     assert isinstance(case.nut.losses["seals"], LipSeals)
     assert isinstance(case_file.build(tables(losses={"seals": "known"})).nut.losses["seals"], Seals)
     spheres = case_file.build(tables(losses={"churning": {"oil_share": 1}}))
-    assert "SchillerNaumann1933" in case_file.references(spheres)
-    assert "SchillerNaumann1933" not in case_file.references(case)
+    assert "SchillerNaumann1933" in references(spheres)
+    assert "SchillerNaumann1933" not in references(case)
 
 
 def test_losses_of_moving_balls_are_added_to_those_of_the_case():
@@ -159,7 +161,7 @@ def test_losses_of_moving_balls_are_added_to_those_of_the_case():
     assert min(expected.values()) > 0
     assert {name: found.contributions[name] for name in losses} == pytest.approx(expected, rel=1e-12)
     assert found.screw_torque - without.screw_torque == pytest.approx(sum(expected.values()), rel=1e-9)
-    assert "JeffreyOnishi1984" in case_file.references(case)
+    assert "JeffreyOnishi1984" in references(case)
     assert "losses.recirculation.wall_factor" in inputs_of(case.model, screw, case.lubricant)
 
 

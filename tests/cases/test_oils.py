@@ -10,6 +10,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, descriptions
+from ballscrew.cases.case_files.inputs import inputs, references
 from ballscrew.faces.web.bodies import case_of
 
 TABLES = {
@@ -31,10 +32,10 @@ def test_a_data_sheet_in_a_case_file():
     case = case_with(SHEET)
     made = bs.Lubricant.from_data_sheet(100e-6, 11.1e-6, 880.0, 253.15)
     assert case.lubricant.viscosity == pytest.approx(made.viscosity, rel=1e-12)
-    inputs = case_file.inputs(case)["lubricant"]
-    assert inputs["kinematic_viscosity_40"] == pytest.approx(1e-4)
-    assert inputs["viscosity"] == case.lubricant.viscosity
-    assert "ASTMD341" in case_file.references(case)
+    given = inputs(case)["lubricant"]
+    assert given["kinematic_viscosity_40"] == pytest.approx(1e-4)
+    assert given["viscosity"] == case.lubricant.viscosity
+    assert "ASTMD341" in references(case)
     assert any("100 cSt at 40 °C" in text for text in descriptions.assumptions(case))
 
 

@@ -13,12 +13,13 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.cases.case_files import case_file
-from ballscrew.physics.components.materials import grades
+from ballscrew.physics.components.oil_grades import grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import presets
-from ballscrew.physics.friction.validity import IMPLAUSIBLE, implausible, named_parts
+from ballscrew.physics.friction.validity import implausible, named_parts
 from ballscrew.physics.laws.rolling import Hysteresis
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.validate import compute

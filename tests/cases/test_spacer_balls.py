@@ -8,6 +8,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, descriptions, nut_tables
+from ballscrew.cases.case_files.inputs import inputs
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.ratings import ratings_of
@@ -43,7 +44,7 @@ def test_a_case_file_has_them(written):
     plain = case_file.load(written)
     assert case.screw.nut == dataclasses.replace(plain.screw.nut, spacer_balls=True)
     assert (case.screw.loaded_balls, case.screw.carrying_balls) == (121, 60.5)
-    assert case_file.inputs(case)["nut"]["spacer_balls"] is True
+    assert inputs(case)["nut"]["spacer_balls"] is True
     said = descriptions.assumptions(case)
     assert "every second ball is a spacer: 60.5 of 121 carry; ratings as listed" in said
     assert "force between balls none: spacer balls part them" in said

@@ -10,6 +10,7 @@ from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
 from ballscrew.axis.supports.makers_bearing import KnownBearing, SKFBearing
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.inputs import inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.faces.web.bodies import case_of
 
@@ -92,7 +93,7 @@ def test_carriages_have_loads_of_their_own_where_the_case_tells_where_they_are()
 
 
 def test_inputs_are_in_si():
-    found = case_file.inputs(built(BEARINGS))
+    found = inputs(built(BEARINGS))
     assert found["bearings"]["fixed"]["law"] == "contacts"
     assert found["bearings"]["fixed"]["rigidity"] == 195e6
     assert found["bearings"]["floating"] == {"law": "known", "torque": 0.03, "load_share": 0.0}

@@ -13,7 +13,7 @@ from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.laws.friction import LoadSharing
 

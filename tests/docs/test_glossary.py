@@ -6,16 +6,18 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.schema.case_schema import LAWS, coefficients_of, sections
-from ballscrew.cases.screw_tables.nut_kinds import LOSSES, NUTS
+from ballscrew.cases.schema.case_schema import coefficients_of, sections
+from ballscrew.cases.screw_tables.nut_kinds import LOSSES
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.faces.cli.main import COMMANDS, command_line, command_of
 from ballscrew.faces.web import openapi
 from ballscrew.faces.web.server import application
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.check_table import CHECKS
+from ballscrew.physics.sizing.listed_nut import NUTS
 from ballscrew.questions.select.need import SHORT_NAMES
 from ballscrew.questions.select.requirements import Requirements
 from support.rules import for_each

@@ -7,7 +7,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.physics.laws import ball_chain
-from ballscrew.physics.sizing.checks import ratings_of
+from ballscrew.physics.sizing.ratings import ratings_of
 
 REFERENCE = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("ISO VG 100", 298.15)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases.schema.case_schema import LAWS
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.laws import ball_chain, friction, inlet, rolling
 from ballscrew.physics.laws.conditions import Motion
 from ballscrew.physics.laws.contact import ContactLaws, rolling_contact

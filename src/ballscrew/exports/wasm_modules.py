@@ -26,9 +26,9 @@ from ballscrew.engine.evaluation.by_ball import stages_by_ball
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION, Output, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import OF_BALLS, inputs_of_structure, recorded_structure
-from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE, Lubricant, grades, nominal_oil
+from ballscrew.physics.components.materials import OF_A_GRADE, Lubricant
 from ballscrew.physics.components.nut import Nut
-from ballscrew.physics.components.oil_grades import OilState
+from ballscrew.physics.components.oil_grades import TEMPERATURE, OilState, grades, nominal_oil
 from ballscrew.physics.components.operating_state import settled
 from ballscrew.physics.friction.touching import MostLoadedBall, most_loaded_ball
 from ballscrew.physics.solvers.load_distribution import (

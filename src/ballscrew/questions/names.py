@@ -10,11 +10,13 @@ from typing import Any, NamedTuple
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of
+from ballscrew.cases.schema.case_schema import MODELS, coefficients_of
 from ballscrew.engine.evaluation.outputs import inputs_of, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.physics.components.materials import Lubricant, grades
+from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut
+from ballscrew.physics.components.oil_grades import grades
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.catalogue import catalogue
 

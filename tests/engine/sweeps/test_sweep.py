@@ -9,7 +9,7 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.outputs import DEFAULT_OUTPUTS, inputs_of, known_outputs
-from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.solvers.slip import curvature_slip
 from support.rules import for_each
 

@@ -351,9 +351,9 @@ def test_every_source_is_known_and_every_reason_said():
 
 def test_every_input_in_the_file_exists(seed_screw):
     """Each is an input of some model and a preloaded nut, so that no name is misspelt."""
-    from ballscrew.cases.schema.case_schema import LAWS
     from ballscrew.cases.screw_tables.nut_kinds import LOSSES
     from ballscrew.engine.evaluation.outputs import inputs_of
+    from ballscrew.physics.friction.law_names import LAWS
 
     model = bs.FrictionModel.reference()
     oil = bs.Lubricant.from_grade("ISO VG 100")

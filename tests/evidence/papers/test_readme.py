@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from ballscrew.cases.case_files import case_file
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.sensitivity.answer import sensitivity
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 

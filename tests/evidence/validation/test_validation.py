@@ -19,7 +19,7 @@ from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.physics.friction.calibrations import calibrated, calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.physics.sizing.checks import ratings_of
+from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.validate import compute
 from support.validation_sets import every_set
 

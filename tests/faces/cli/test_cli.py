@@ -17,7 +17,7 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.faces.cli import main
-from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.balls import MECHANISMS
 
 ROOT = Path(__file__).parents[3]
 LEFT_OUT = "left out: seals, preload, return path, churning; not compared with measurements"

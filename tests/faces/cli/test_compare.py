@@ -15,8 +15,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
 from ballscrew.faces.sheets import terminal, to_file
+from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.model import presets
-from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.compare import compute
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import charts
@@ -49,7 +50,7 @@ def test_every_model_and_every_other_law_once(paper, found):
     assert found.case is found.models[-1]
     expected = {
         (slot, name)
-        for slot, known in case_schema.LAWS.items()
+        for slot, known in LAWS.items()
         for name in known
         if name != case_schema.name_of_law(slot, getattr(paper.model, slot))
     }
@@ -72,9 +73,7 @@ def test_each_row_is_the_model_with_one_law_replaced(paper, found):
     for row in found.laws:
         slot = row.candidate.slot
         changed = [
-            name
-            for name in case_schema.LAWS
-            if not same_law(getattr(row.candidate.model, name), getattr(paper.model, name))
+            name for name in LAWS if not same_law(getattr(row.candidate.model, name), getattr(paper.model, name))
         ]
         assert changed == [slot]
         point = {name: getattr(paper.operation, name) for name in ("axial_load", "screw_speed")}
@@ -157,7 +156,7 @@ def test_the_table_is_readable(load, example, ballscrew):
     assert process.stderr == ""
     assert max(map(len, process.stdout.splitlines())) <= WIDTH
     assert not re.search("nan|inf ", process.stdout)
-    for slot in case_schema.LAWS:
+    for slot in LAWS:
         assert f"\n  {slot.replace('_', ' ')}, in place of " in process.stdout
 
 
@@ -262,7 +261,7 @@ def test_what_a_picture_says(load, paper, tmp_path):
         assert words in shown.text
     (bars,) = seen.of_kind(Bars)
     rows = [bar for bar in bars.bars if bar.parts]
-    by_slot = [row for slot in case_schema.LAWS for row in found.laws if row.candidate.slot == slot]
+    by_slot = [row for slot in LAWS for row in found.laws if row.candidate.slot == slot]
     for bar, row in zip(rows, [*found.models, *by_slot], strict=True):
         assert sum(part for _, part, _ in bar.parts) == pytest.approx(row.torque, rel=1e-12, nan_ok=True)
         assert bar.hatched == bool(row.outside)

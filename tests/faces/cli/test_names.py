@@ -7,8 +7,9 @@ from typer.testing import CliRunner
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema.case_schema import LAWS, MODELS
+from ballscrew.cases.schema.case_schema import MODELS
 from ballscrew.faces.cli import main
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.questions.names import KINDS, names, text
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.inputs import inputs
 
 MODULE = """
 import dataclasses
@@ -43,7 +44,7 @@ def test_a_function(case):
     model = model_of(case, "laws_of_a_test:half")
     assert model.rolling.__name__ == "half"
     loaded = case_file.load(case, ["model.name=reference", 'model.rolling="laws_of_a_test:half"'], allow_code=True)
-    assert case_file.inputs(loaded)["model"]["rolling"] == "laws_of_a_test:half"
+    assert inputs(loaded)["model"]["rolling"] == "laws_of_a_test:half"
 
 
 def test_a_dataclass_with_coefficients(case):

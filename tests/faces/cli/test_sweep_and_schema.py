@@ -54,10 +54,12 @@ def test_every_example_of_the_schema_parses():
     from ballscrew.basis.errors import Fault, fault_of
     from ballscrew.basis.quantities import fields_of
     from ballscrew.cases.schema import case_schema
+    from ballscrew.cases.schema.fields import EXAMPLES
+    from ballscrew.physics.friction.law_names import LAWS
 
     drive = tomllib.loads((ROOT / "examples" / "feed_drive.toml").read_text(encoding="utf-8"))
     written = {name: value for section in ("screw", "lubricant", "operation") for name, value in drive[section].items()}
-    assert {name: value for name, value in case_schema.EXAMPLES.items() if name in written} == {
+    assert {name: value for name, value in EXAMPLES.items() if name in written} == {
         name: value for name, value in written.items() if name != "grade"
     }
     definitions = case_schema.json_schema()["$defs"]
@@ -66,7 +68,7 @@ def test_every_example_of_the_schema_parses():
     known = {title: dict(fields_of(part)) for title, part in parts.items()}
     known["Lubricant"] |= {**fields_of(bs.DataSheet), "temperature": case_schema.SHEET_TEMPERATURE}
     tables = [(definitions[title]["properties"], quantities) for title, quantities in known.items()]
-    for slot in case_schema.LAWS:
+    for slot in LAWS:
         options = definitions["Model"]["properties"][slot]["anyOf"][1:]
         for option in (one for one in options if "properties" in one):
             name = option["properties"]["law"].get("const")

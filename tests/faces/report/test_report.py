@@ -27,6 +27,7 @@ from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.references import bibliography as entries
 from ballscrew.basis.units import DIGITS
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.inputs import references
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
@@ -361,7 +362,7 @@ def test_sources_are_those_that_were_used(content):
     assert words == list(dict.fromkeys(words))
     case = case_of("catalogue_screw")
     # THK514E: the general limit of the DN value
-    assert set(case_file.references(case)) | {"Rexroth2006", "ISO3408-5", "SKF2018", "THK514E"} <= set(words)
+    assert set(references(case)) | {"Rexroth2006", "ISO3408-5", "SKF2018", "THK514E"} <= set(words)
     assert "Saltelli2010" not in words
     links_of = dict(zip(words, (link for _, link in links.entries), strict=True))
     assert links_of["Olaru2005"] == "https://doi.org/10.1007/1-4020-2933-0_20"

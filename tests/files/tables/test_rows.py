@@ -22,7 +22,7 @@ from ballscrew.files.tables import decimals, rows, sheets
 from ballscrew.files.tables.headings import Column, heading_of, headings_in, known_heading_of
 from ballscrew.files.tables.sheets import Record
 from ballscrew.files.torque_logs import columns as torque_logs
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.questions.validate.compute import columns_of
 

@@ -7,7 +7,8 @@ import pytest
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import fields_of, quantities_of
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.solvers.load_distribution import BallLoads

@@ -10,6 +10,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.inputs import inputs
 from ballscrew.physics.friction.loaded_balls import ball_angles, loads_of
 
 U = pint.UnitRegistry()
@@ -119,6 +120,6 @@ def test_grooves_of_a_case_file():
     }
     case = case_file.build(tables)
     assert case.nut.deviations == bs.Scatter(seed=3, groove=1.5e-6)
-    assert case_file.inputs(case)["deviations"]["groove"] == 1.5e-6
+    assert inputs(case)["deviations"]["groove"] == 1.5e-6
     with pytest.raises(InputError, match=r"deviations.groove: must not be negative"):
         case_file.build({**tables, "deviations": {"groove": "-1 um"}})

@@ -10,7 +10,7 @@ import pint
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.materials import grades
+from ballscrew.physics.components.oil_grades import grades
 from ballscrew.physics.friction.validity import beyond_data_sheet
 
 SHEET = {"kinematic_viscosity_40": 100e-6, "kinematic_viscosity_100": 11.1e-6, "density_15": 880.0}

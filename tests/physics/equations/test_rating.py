@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from ballscrew.physics.components.screw import RATING_CONFORMITY
 from ballscrew.physics.equations import geometry, life, rating
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.ratings import RATING_CONFORMITY, ratings_of
+from ballscrew.physics.sizing.ratings import ratings_of
 
 RELATIVE = 1e-13
 KGF = 9.80665

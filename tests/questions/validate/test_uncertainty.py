@@ -6,7 +6,7 @@ import math
 import pytest
 
 from ballscrew.cases.case_files import uncertain_inputs
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.uncertainty import bands
 from ballscrew.evidence.validation.entries import Band, Entry, Point
 from ballscrew.evidence.validation.sets import SETS

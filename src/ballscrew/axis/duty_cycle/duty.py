@@ -28,9 +28,9 @@ from ballscrew.basis.quantities import Duration, Energy, Length, Power, Ratio
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.element import FrictionElement
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.friction.starvation import NEARLY_ALL, differs
 
 #: Parts of the torque that store energy and give it back.

@@ -17,7 +17,7 @@ from ballscrew.basis.arrays import lazy
 from ballscrew.basis.displayed import Displayed
 from ballscrew.basis.quantities import Length, MomentOfInertia, fields_of
 from ballscrew.basis.records import Record
-from ballscrew.basis.usual_ranges import unusual
+from ballscrew.basis.usual_ranges import IMPLAUSIBLE, unusual
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.physics.components.materials import STEEL_DENSITY, Lubricant
@@ -28,7 +28,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations.shaft import shaft_inertia
 from ballscrew.physics.friction.calibrations import Calibration
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.validity import IMPLAUSIBLE, implausible, named_parts
+from ballscrew.physics.friction.validity import implausible, named_parts
 from ballscrew.physics.laws.friction import FRESH_BOUNDARY_FRICTION
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow, is_shipped

@@ -12,13 +12,14 @@ from ballscrew.cases.case_files.lubricants import described
 from ballscrew.cases.case_files.makers_rules import by_rules, make_of
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.cases.case_files.nut_tables import seal_torque_source
-from ballscrew.cases.schema.case_schema import LAWS, MODELS, name_of_law
+from ballscrew.cases.schema.case_schema import MODELS, name_of_law
 from ballscrew.cases.screw_tables.nut_kinds import kind_of
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Bodies, Nut
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.law_names import LAWS, coefficients
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.laws.nut_losses import Seals

@@ -11,12 +11,13 @@ from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import duty_tables, support_tables
 from ballscrew.cases.case_files.case import USUAL_LIMITS, Case
 from ballscrew.cases.case_files.nut_tables import seal_torque_source
-from ballscrew.cases.schema.case_schema import LAWS, name_of_law
+from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, kind_of
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.screw import MATERIALS
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.sizing.installation import Installation
 
 

@@ -14,15 +14,16 @@ from ballscrew.cases.case_files.case import PreloadNote
 from ballscrew.cases.schema.case_schema import law_of
 from ballscrew.cases.schema.reader import Reader
 from ballscrew.cases.screw_tables import catalogue
-from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS, Share
+from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS
+from ballscrew.files.tables.cells import Share
 from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.physics.laws.nut_losses import ParasiticLaw
+from ballscrew.physics.sizing import listed_nut
 from ballscrew.physics.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
 from ballscrew.physics.sizing.checks import groove_bottom
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.listed_nut import lists_preload
-from ballscrew.physics.sizing.listed_nut import nut_of as listed_nut
+from ballscrew.physics.sizing.listed_nut import NUTS, lists_preload
 from ballscrew.physics.sizing.ratings import Ratings, load_ratings, ratings_of
 
 #: The nut of a case that names one without preload.
@@ -119,7 +120,7 @@ def nut_of(
     None without such a section, where the row, too, lists neither preload nor seals. What a section says counts, what
     it leaves out is that of the row. The contact angle of a single nut that a case names follows the load.
     """
-    of_row = None if row is None else listed_nut(row)
+    of_row = None if row is None else listed_nut.nut_of(row)
     if of_row is None and not any(name in reader for name in _OF_NUT):
         return None, ()
     part = reader.part()

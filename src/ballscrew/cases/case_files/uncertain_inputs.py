@@ -18,7 +18,8 @@ from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
 from ballscrew.engine.uncertainty.distributions import Distribution, Normal, scaled
 from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import Calibration
 from ballscrew.physics.friction.model import FrictionModel

@@ -28,21 +28,28 @@ from ballscrew.cases.schema.duty_schema import (
     efficiency_field,
     support_sections,
 )
-from ballscrew.cases.schema.fields import EXAMPLES as EXAMPLES
-from ballscrew.cases.schema.fields import NUT_SPEED, defaults_of, json_of, read_preload, read_speed, section_of
+from ballscrew.cases.schema.fields import (
+    NUT_SPEED,
+    defaults_of,
+    json_of,
+    read_preload,
+    read_speed,
+    section_of,
+)
 from ballscrew.cases.schema.law_import import OUTSIDE, law_from_outside, with_plain_numbers
-from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
+from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
-from ballscrew.physics.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
+from ballscrew.physics.components.materials import INPUTS_OF_SHEET, Lubricant, Material
 from ballscrew.physics.components.nut import Bodies, DoubleNut, Scatter
+from ballscrew.physics.components.oil_grades import grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
 from ballscrew.physics.friction.calibrations import BY_MAKE, calibrations
-from ballscrew.physics.friction.law_names import LAWS as LAWS
-from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.law_names import LAWS, coefficients
 from ballscrew.physics.friction.model import FrictionModel, presets
 from ballscrew.physics.laws.outside import name_of
 from ballscrew.physics.sizing.installation import Installation, Limits
+from ballscrew.physics.sizing.listed_nut import NUTS
 
 MODELS = presets()
 DEFAULT_MODEL = "reference"

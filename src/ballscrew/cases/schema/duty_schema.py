@@ -19,7 +19,7 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.cases.schema.fields import json_of, section_of, si_value
-from ballscrew.physics.components.materials import grades
+from ballscrew.physics.components.oil_grades import grades
 
 #: The tables of a case that moves.
 DUTY_TABLES = ("axis", "motion", "motor", "surroundings")

@@ -14,8 +14,9 @@ from pydantic_core import PydanticCustomError
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, fault_of
 from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, PERCENT, Share
+from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, PERCENT
 from ballscrew.engine.uncertainty import uncertain_value
+from ballscrew.files.tables.cells import Share
 from ballscrew.physics.components.operating_state import OperatingState
 
 #: What stands in the schema as an example: examples/feed_drive.toml, and what has no default.

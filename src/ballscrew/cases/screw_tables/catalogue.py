@@ -13,8 +13,9 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
 from ballscrew.basis.version import __version__
-from ballscrew.cases.screw_tables.nut_kinds import LISTED, NUTS, Share, kind_in
+from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_in
 from ballscrew.files.tables import column_names
+from ballscrew.files.tables.cells import Share
 from ballscrew.files.tables.headings import Column
 from ballscrew.files.tables.rows import Row, made, read
 from ballscrew.physics.components.screw import BallScrew
@@ -27,7 +28,7 @@ from ballscrew.physics.sizing.catalogue import (
     catalogue,
     is_shipped,
 )
-from ballscrew.physics.sizing.listed_nut import lists_preload
+from ballscrew.physics.sizing.listed_nut import NUTS, lists_preload
 from ballscrew.physics.sizing.own_nut import RATED, Estimate, completed
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.sizing.table_balls import with_table_balls

@@ -6,13 +6,12 @@ import re
 from collections.abc import Mapping
 
 from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.files.tables.cells import Share as Share
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.laws import nut_losses
 from ballscrew.physics.laws.nut_losses import ParasiticLaw
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Ends
-from ballscrew.physics.sizing.listed_nut import NUTS as NUTS
+from ballscrew.physics.sizing.listed_nut import NUTS
 
 #: What catalogues call them in words, besides "nut" and "flange". A single nut that is preloaded may be two of the
 #: kinds: nothing is guessed.

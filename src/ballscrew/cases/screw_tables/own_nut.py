@@ -9,9 +9,9 @@ from typing import Any
 
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
-from ballscrew.cases.screw_tables.nut_kinds import Share, kind_in
+from ballscrew.cases.screw_tables.nut_kinds import kind_in
 from ballscrew.files.tables import column_names, decimals
-from ballscrew.files.tables.cells import shown, text_of, value_of
+from ballscrew.files.tables.cells import Share, shown, text_of, value_of
 from ballscrew.files.tables.headings import NOTHING, Column, Heading
 from ballscrew.physics.sizing.own_nut import OwnNut, completed
 

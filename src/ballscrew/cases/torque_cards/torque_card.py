@@ -24,7 +24,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.opened_file import moved
 from ballscrew.cases.schema.case_schema import read_table, sections, without_null
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.solvers.load_distribution import preload_of
 
 #: The version of the format that this program writes and reads.

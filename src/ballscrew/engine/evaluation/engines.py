@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from ballscrew.basis.errors import Fault
-from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels import kernel
 from ballscrew.compiler.tracing.program import Program
 
 #: What can evaluate a plan.
@@ -33,7 +33,7 @@ def engine_faults(section: str, engine: str | None, engines: Sequence[str] = ENG
     """Faults of a requested engine."""
     if engine is not None and engine not in engines:
         return [Fault(f"{section}.engine", "unknown engine", str(engine), f"one of {', '.join(engines)}")]
-    if engine == "compiled" and not kernels.available():
+    if engine == "compiled" and not kernel.available():
         remedy = 'pip install "ballscrew[fast]", or leave the engine out'
         return [Fault(f"{section}.engine", "needs a compiler that is not installed", engine, remedy)]
     return []
@@ -49,14 +49,14 @@ def why_numpy(engine: Engine | None) -> str:
     """Reason for NumPy where a kernel could be recorded."""
     if engine == "numpy":
         return ASKED_FOR
-    if not kernels.available():
+    if not kernel.available():
         return 'no compiler is installed: pip install "ballscrew[fast]"'
     return "the work is too short for a compiler"
 
 
 def may_be_compiled(program: Program, points: int, engine: Engine | None) -> bool:
     """True where a kernel is requested or the work is long enough."""
-    if engine == "numpy" or not kernels.available():
+    if engine == "numpy" or not kernel.available():
         return False
     return engine == "compiled" or _numpy_seconds(program, points) > SHORT_SECONDS
 
@@ -66,7 +66,7 @@ def worth_compiling(program: Program, points: int, text: str, *, anew: bool = Fa
 
     With ``anew`` it is said as where nothing is compiled yet.
     """
-    if not anew and kernels.is_cached(text):
+    if not anew and kernel.is_cached(text):
         return True
     return _numpy_seconds(program, points) > COMPILING_SECONDS + COMPILING_STEP_SECONDS * len(program.steps)
 

@@ -8,12 +8,14 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import INPUTS_OF_SHEET, Lubricant
 from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, SINGLE_NUT, BallScrew
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
 from ballscrew.physics.laws.contact import Contact, RaceState
 from ballscrew.physics.solvers.load_distribution import BallLoads

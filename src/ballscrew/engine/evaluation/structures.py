@@ -28,7 +28,8 @@ from ballscrew.engine.evaluation.outputs import (
 )
 from ballscrew.engine.evaluation.plan import Configuration, read_input
 from ballscrew.engine.evaluation.recordings import UnknownPartError, key_of
-from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE
+from ballscrew.physics.components.materials import INPUTS_OF_SHEET
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import MATERIALS
 from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads
 

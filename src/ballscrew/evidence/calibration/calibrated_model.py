@@ -15,7 +15,7 @@ from ballscrew.evidence.calibration.fit_result import Band, FitResult
 from ballscrew.evidence.calibration.next_test import NextTest, next_test
 from ballscrew.evidence.calibration.posterior import Posterior, posterior
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)

@@ -17,7 +17,7 @@ from ballscrew.evidence.calibration.fit_result import (
 )
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.robust import autocorrelation_lag, minimum_scatter
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.loaded_balls import loads_of
 
 _OF_LOG = "so in the row that starves the most, by the numbers of the fit"

@@ -43,7 +43,8 @@ from ballscrew.evidence.calibration.robust import Solution, Vector, loss_of, sol
 from ballscrew.evidence.calibration.torque_conventions import TorqueConvention, identify_convention
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.nut_losses import ConstantTorque

@@ -14,7 +14,7 @@ from ballscrew.evidence.calibration.fit_result import FitResult
 from ballscrew.evidence.calibration.identifiability import weighted_derivatives
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.files.torque_logs.log_rows import quantities
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 
 #: Without limits, loads of the signs in the log and speeds, from half the least to twice the largest, are thought
 #: possible, and temperatures this many kelvin beyond those of the log.

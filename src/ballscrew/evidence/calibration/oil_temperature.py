@@ -18,7 +18,8 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 
 #: Half the width of the 95 % interval of an oil temperature, K: that of a sensor near the nut, and without any.
 LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE = 2.0, 10.0

@@ -21,7 +21,7 @@ from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.evidence.calibration.robust import BIWEIGHT_CUTOFF, Vector, noise_of
 from ballscrew.evidence.service.posterior import PRELOAD, Readings, errors_of_sensor
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 
 #: A cause explains a log as well as the preload if it is off by no more than this many times as much.
 AS_WELL = 1.05

@@ -20,7 +20,7 @@ from ballscrew.evidence.service.posterior import PRELOAD
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.files.torque_logs.torque_series import JUMP, TorqueSeries
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 
 #: Speeds of a log at most, and rows of a mean in one direction at least.
 MOST_SPEEDS, LEAST_ROWS = 12, 3

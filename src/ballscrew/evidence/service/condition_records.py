@@ -23,7 +23,7 @@ from ballscrew.evidence.service.condition_values import CONSTANT, WARMER, Condit
 from ballscrew.evidence.service.diagnostics import temperature_trend
 from ballscrew.evidence.service.posterior import FRICTION, MODEL_ERROR, PRELOAD
 from ballscrew.evidence.service.preload_change import VERDICTS
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 
 #: A factor between measured torque and model beyond this, either way, is said.
 LARGEST_FACTOR = 1.5

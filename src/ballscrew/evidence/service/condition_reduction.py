@@ -25,7 +25,7 @@ from ballscrew.evidence.calibration.oil_temperature import torque_of_model
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.condition_means import Means, points_of
 from ballscrew.evidence.service.posterior import FRICTION, PRELOAD
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 
 if TYPE_CHECKING:
     from ballscrew.engine.uncertainty.monte_carlo import JointNormal

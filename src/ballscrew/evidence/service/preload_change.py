@@ -25,7 +25,8 @@ from ballscrew.evidence.service.posterior import MINIMUM_SAMPLES, PRELOAD, Group
 from ballscrew.evidence.service.preload_estimate import Mixture, PreloadEstimate
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 

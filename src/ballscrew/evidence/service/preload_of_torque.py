@@ -20,7 +20,8 @@ from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.posterior import PRELOAD
 from ballscrew.evidence.service.preload_change import held_numbers, with_preload
 from ballscrew.evidence.service.preload_estimate import Mixture, PreloadEstimate
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 

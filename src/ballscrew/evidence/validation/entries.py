@@ -21,8 +21,9 @@ import numpy as np
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import AngularSpeed, Info, Quantity, Temperature, Viscosity, fields_of
 from ballscrew.basis.records import Record
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import calibrations

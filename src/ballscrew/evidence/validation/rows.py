@@ -27,7 +27,7 @@ from ballscrew.physics.laws.conditions import ContactConditions, Motion
 from ballscrew.physics.laws.nut_losses import Seals
 from ballscrew.physics.sizing.accuracy_factors import factors_of_makes
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.checks import ratings_of
+from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.sizing.rigidity import rigidity_iso3408
 from ballscrew.physics.sizing.rules import CHART_LINES, DRAG_RULES, LOADED_RULES, RULES, Subject, of_model
 from ballscrew.physics.solvers.load_distribution import ball_loads

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ballscrew.cases.case_files.inputs import references
 from ballscrew.faces.cli.options import AsJson, file_option, print_answer
 from ballscrew.questions.shared.question import CaseOptions
 
@@ -37,10 +38,9 @@ def cite(
 ) -> None:
     """BibTeX of the sources that a case makes use of."""
     from ballscrew.basis.references import bibliography
-    from ballscrew.cases.case_files import case_file
 
     entries = bibliography()
-    keys = list(entries) if case is None else case_file.references(case_options.load(case))
+    keys = list(entries) if case is None else references(case_options.load(case))
     typer.echo("\n\n".join(entries[key] for key in keys))
 
 

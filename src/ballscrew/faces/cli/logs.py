@@ -402,7 +402,6 @@ def validate(
     from ballscrew.questions.shared import charts
     from ballscrew.questions.validate import compute
     from ballscrew.questions.validate import sheet as sheets
-    from ballscrew.questions.validate import sheet as summaries
     from ballscrew.questions.validate.document import documents
 
     request = compute.request(
@@ -440,13 +439,13 @@ def validate(
         show(sheets.sheet(entries, request))
     makers: list[SummaryRow] = []
     if summary or (request.everything and not output.as_json):
-        makers, notes = summaries.summary(request, sets_of_entries)
+        makers, notes = sheets.summary(request, sets_of_entries)
         print_notes_of_rows(notes)
         show(sheets.of_makers(makers))
     if output.as_sheet:
         typer.echo(json_text.as_json([document(sheet) for sheet in shown]))
     elif output.as_json and summary:
-        typer.echo(json_text.as_json(summaries.document(makers)))
+        typer.echo(json_text.as_json(sheets.document(makers)))
     elif output.as_json:
         typer.echo(json_text.as_json(documents([entry for entries in sets_of_entries for entry in entries])))
     if report is not None:

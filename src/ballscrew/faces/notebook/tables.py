@@ -16,7 +16,8 @@ from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.bands import Band, Interval
 from ballscrew.engine.uncertainty.sensitivity import Sensitivity
 from ballscrew.evidence.calibration.fit_result import FitResult
-from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.run.sheet import SHOWN
 from ballscrew.questions.shared.text_tables import shown_or_dash
 

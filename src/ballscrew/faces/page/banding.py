@@ -32,7 +32,7 @@ from ballscrew.engine.uncertainty.distributions import UNREACHED, allowed, stand
 from ballscrew.exports.wasm_modules import Function, KeptModule, Module, compiled, described
 from ballscrew.faces.page import kinds
 from ballscrew.faces.page.modules import inputs_of_module
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.band.compute import LEVEL, PRESSING, of_makers
 
 #: Samples at the operating point, as many as in the program, and at each speed of the fan; powers of two.

@@ -22,8 +22,8 @@ from ballscrew.faces.page.judging import Judging, contents_of_judging, of_start
 from ballscrew.faces.page.modules import inputs_of_module
 from ballscrew.faces.page.starts import starts
 from ballscrew.faces.page.vocabulary import vocabulary
-from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.result import QUADRANTS
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.sizing.catalogue import catalogue

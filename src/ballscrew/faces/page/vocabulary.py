@@ -17,23 +17,26 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.basis.version import __version__
-from ballscrew.cases.schema.case_schema import DEFAULT_MODEL, LAWS, MODELS
+from ballscrew.cases.schema.case_schema import DEFAULT_MODEL, MODELS
 from ballscrew.cases.schema.duty_schema import MOTIONS, fields_of_motion
 from ballscrew.cases.screw_tables.catalogue import EXAMPLE_PRELOADS
-from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS, NUTS
+from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.faces.page.starts import starts
 from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.nut import Bodies, Scatter
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.moving_balls.friction_states import Dahl, LuGre
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
+from ballscrew.physics.sizing.listed_nut import NUTS
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.duty.compute import NUMBERS

@@ -14,7 +14,9 @@ from ballscrew.basis.output import bibliography
 from ballscrew.basis.output.sheet import Table as SheetTable
 from ballscrew.basis.records import Record
 from ballscrew.basis.version import __version__
-from ballscrew.cases.case_files import case_file, descriptions
+from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.inputs import references
 from ballscrew.faces.report import input_tables
 from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.curves import Curves, curves
@@ -107,7 +109,7 @@ def _tell(done: Done | None, finished: int) -> None:
         done(finished, ALL)
 
 
-def content(case: case_file.Case, done: Done | None = None, samples: int | None = None) -> Report:
+def content(case: Case, done: Done | None = None, samples: int | None = None) -> Report:
     """Contents of the report of a case."""
     result = run(case)
     _tell(done, _ANSWERED)
@@ -145,14 +147,14 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     return Report("Friction of a ball screw", subtitle(case), sections, f"ballscrew {__version__}", pages)
 
 
-def _duty(case: case_file.Case) -> DutyReport | None:
+def _duty(case: Case) -> DutyReport | None:
     """The cycle of a case that has an axis and a motion."""
     if case.axis is None or case.motion is None:
         return None
     return duty(case)
 
 
-def _answer(cycle: DutyReport | None, of_point: Paragraph, case: case_file.Case) -> list[Block]:
+def _answer(cycle: DutyReport | None, of_point: Paragraph, case: Case) -> list[Block]:
     """The answer to what the case asks: over its cycle where it has one, and then at the operating point."""
     if cycle is None:
         return [of_point]
@@ -165,7 +167,7 @@ def _answer(cycle: DutyReport | None, of_point: Paragraph, case: case_file.Case)
     ]
 
 
-def _checks(case: case_file.Case, result: Run, cycle: DutyReport | None) -> Section:
+def _checks(case: Case, result: Run, cycle: DutyReport | None) -> Section:
     """The checks over the cycle where there is one, else of the operating point: one verdict, and of what it is."""
     of_point = checked("", case, known=result)
     if cycle is None:
@@ -207,7 +209,7 @@ def parts(result: Run) -> list[Block]:
     return [*tables] or [Paragraph("There is no friction torque to take apart: it is zero, or no number, here.")]
 
 
-def vendor_rows(case: case_file.Case) -> list[Block]:
+def vendor_rows(case: Case) -> list[Block]:
     """The rows of a vendor most like the nut, and what the model says of them."""
     near = sheet.vendor_rows(case)
     return [] if near is None else [Paragraph(f"{sentence(near[0])}."), report_blocks.table(near[1])]
@@ -248,12 +250,12 @@ def _bands(cycle: DutyReport) -> DutyBandReport | None:
         return None
 
 
-def _has_stiffness(case: case_file.Case) -> bool:
+def _has_stiffness(case: Case) -> bool:
     """Whether a case tells the ends of its shaft and how the nut travels between them."""
     return case.installation is not None and case.axis is not None and case.motion is not None
 
 
-def _stiffness(case: case_file.Case) -> list[Section]:
+def _stiffness(case: Case) -> list[Section]:
     """The section on what gives way between motor and table, and on what the shaft stands."""
     if not _has_stiffness(case):
         return []
@@ -266,7 +268,7 @@ def _stiffness(case: case_file.Case) -> list[Section]:
     return [Section("Stiffness over the stroke", blocks)]
 
 
-def _heat(case: case_file.Case) -> list[Section]:
+def _heat(case: Case) -> list[Section]:
     """The section on the heat of a case that has surroundings."""
     if case.surroundings is None:
         return []
@@ -280,7 +282,7 @@ def _heat(case: case_file.Case) -> list[Section]:
     return [Section("As it warms up", blocks)]
 
 
-def subtitle(case: case_file.Case) -> list[str]:
+def subtitle(case: Case) -> list[str]:
     """Row, screw, nut, operating point and model of a case, a line each."""
     of_row = [] if case.row is None else [f"{case.row.name} ({case.row.source})"]
     nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
@@ -337,21 +339,21 @@ def _at(x: Any, y: Any, here: float) -> str:
     return f"{value:.3g}" if math.isfinite(value) else "no number of"
 
 
-def _model(case: case_file.Case) -> Sequence[Block]:
+def _model(case: Case) -> Sequence[Block]:
     said = [f"{sentence(line)}." for line in (descriptions.model_text(case), *descriptions.of_fit(case))]
     if case.calibration is not None:
         said.append(f"Two numbers of it are from the calibration {case.calibration.name}.")
     return [Paragraph(" ".join(said))]
 
 
-def origins(case: case_file.Case, inputs: list[Table]) -> Paragraph:
+def origins(case: Case, inputs: list[Table]) -> Paragraph:
     """Where the values of the inputs are from."""
     return Paragraph(f"Where values are from: {input_tables.sources_in_words(case, inputs)}")
 
 
-def sources(case: case_file.Case, band_report: compute.BandReport) -> list[tuple[str, str]]:
+def sources(case: Case, band_report: compute.BandReport) -> list[tuple[str, str]]:
     """Sources of a case and its band, in words, each with its address."""
-    keys = [*case_file.references(case), *_OF_CHECKS, *(one.source for one in band_report.inputs.values())]
+    keys = [*references(case), *_OF_CHECKS, *(one.source for one in band_report.inputs.values())]
     keys += [] if case.row is None else bibliography.of_catalogue(case.row.source)
     if case.limits.diameter_speed_product is None:
         keys += (speed_limit_of(case.row) or GENERAL).sources

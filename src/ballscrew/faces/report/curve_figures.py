@@ -14,7 +14,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from ballscrew.faces.report.curves import Curves
-from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import svg_of
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.physics.components.operating_state import OperatingState
 

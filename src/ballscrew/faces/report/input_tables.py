@@ -7,18 +7,18 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.lubricants import described
-from ballscrew.cases.schema.case_schema import LAWS, name_of_law
+from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
 from ballscrew.physics.components.data_sheet import DataSheet
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant, nominal_oil
-from ballscrew.physics.components.oil_grades import OilState
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import TEMPERATURE, OilState, nominal_oil
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
-from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.law_names import LAWS, coefficients
 from ballscrew.physics.sizing.installation import Limits
 from ballscrew.questions.shared.report_blocks import Table
 from ballscrew.questions.shared.report_blocks import value as value_of

@@ -22,7 +22,7 @@ from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.band.sheet import tornado
 from ballscrew.questions.check.compute import Checked, checked
-from ballscrew.questions.compare_designs.answer import bars as bars_of_designs
+from ballscrew.questions.compare_designs import answer
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.run.sheet import meaning
 from ballscrew.questions.shared import check_lines
@@ -137,7 +137,7 @@ def _cell(one: Design, name: str, first: Design) -> str:
 def _picture(designs: Sequence[Design]) -> list[Block]:
     parts = {one.name: one.run.friction.contributions for one in designs}
     bands = {one.name: one.band.band["screw_torque"].both for one in designs}
-    bars = bars_of_designs(parts, bands)
+    bars = answer.bars(parts, bands)
     if not any(bar.parts for bar in bars.bars):
         return []
     torques = ", ".join(

@@ -16,9 +16,9 @@ from fastapi import APIRouter, Depends, Query, Request
 from starlette.responses import Response
 
 from ballscrew.basis.errors import Fault, InputError, nearest
-from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.case_schema import json_schema
-from ballscrew.cases.screw_tables import catalogue as rows
+from ballscrew.cases.screw_tables.catalogue import case_text, chosen, list_document, named, show_document
 from ballscrew.cases.screw_tables.own_nut import own_nut_of
 from ballscrew.faces.page import starts, vocabulary
 from ballscrew.faces.report.contents import Heading
@@ -61,14 +61,14 @@ from ballscrew.faces.web.endpoint_parts import (
 )
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
-from ballscrew.physics.sizing.catalogue import catalogue as shipped
+from ballscrew.physics.sizing import catalogue as shipped
 from ballscrew.questions.band import compute, document
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.catalogue import answer, text
 from ballscrew.questions.check.compute import Checks, with_nut_named
 from ballscrew.questions.fit.document import Examples
 from ballscrew.questions.hand_over.document import Targets, targets
-from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
+from ballscrew.questions.optimise import need_schema
 from ballscrew.questions.run import response
 from ballscrew.questions.shared import answer_parts, option_values
 from ballscrew.questions.sweep import answer as sweep_documents
@@ -124,7 +124,7 @@ async def sweep(request: Request) -> Response:
     options = option_values.read(SweepOptions, dict(body))
     limits.check_size(dict(each.split("=", 1) for each in options.vary), len(options.outputs), banded=options.band)
 
-    def planned() -> tuple[case_file.Case, sweeps.Plan, int | None]:
+    def planned() -> tuple[Case, sweeps.Plan, int | None]:
         case = case_of(body.case)
         if not options.vary:
             limits.check_size(case.sweep, len(options.outputs), banded=options.band)
@@ -196,17 +196,17 @@ async def catalogue(
     words: Annotated[str, Query(description="all of them must be in a row")] = "",
 ) -> Response:
     """Rows of the catalogue with these words: the document of ``ballscrew catalogue list --json``."""
-    return as_json(rows.list_document(rows.chosen(shipped(), words)))
+    return as_json(list_document(chosen(shipped.catalogue(), words)))
 
 
 @router.get("/catalogue/{name}", response_model=answer.Row, responses=openapi.problems_of(404))
 async def row(name: openapi.RowName) -> Response:
     """One row: the document of ``ballscrew catalogue show --json``, and the case that ``--case`` writes, as tables."""
     try:
-        listed = rows.named(shipped(), name)
+        listed = named(shipped.catalogue(), name)
     except InputError as error:
         raise Refused(404, *error.faults) from None
-    return as_json({**rows.show_document(listed), "case": tomlkit.parse(rows.case_text(listed)).unwrap()})
+    return as_json({**show_document(listed), "case": tomlkit.parse(case_text(listed)).unwrap()})
 
 
 @router.get("/validate", response_model=list[ValidationEntry], responses=openapi.problems_of())
@@ -251,7 +251,7 @@ _constant(
 )
 _constant(
     "/need-schema",
-    schema_of_needs,
+    need_schema.json_schema,
     answer_parts.NeedSchema,
     "JSON Schema of a need, as ``ballscrew schema --need`` prints it.",
 )

@@ -19,7 +19,7 @@ from starlette.requests import ClientDisconnect, Request
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web.problems import Refused

@@ -8,7 +8,8 @@ from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew.cases.case_files import case_file, descriptions
+from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.band import document
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.sheet import input_counts
@@ -22,7 +23,7 @@ _runs: OrderedDict[str, compute.Run] = OrderedDict()
 _runs_lock = threading.Lock()
 
 
-def run_of(case: case_file.Case, tables: Mapping[str, Any]) -> compute.Run:
+def run_of(case: Case, tables: Mapping[str, Any]) -> compute.Run:
     """The run of a case that was made of these tables; of the same tables again it is not computed again."""
     key = json.dumps(tables, default=repr)
     with _runs_lock:
@@ -65,7 +66,7 @@ def drawing(result: compute.Run) -> dict[str, Any]:
     return {"text": drawing(result)}
 
 
-def band(case: case_file.Case, band_report: BandReport) -> dict[str, Any]:
+def band(case: Case, band_report: BandReport) -> dict[str, Any]:
     """The document of a band, and its sentences."""
     return {
         **document.document(compute.run(case), band_report),

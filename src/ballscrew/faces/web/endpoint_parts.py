@@ -20,7 +20,7 @@ from ballscrew.basis.errors import Fault, nearest, raise_if_any
 from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Sheet
-from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
 from ballscrew.faces.web import documents, limits, openapi
 from ballscrew.faces.web.bodies import Body, case_of, read
 from ballscrew.faces.web.documents import KeptAnswers, Question
@@ -228,10 +228,10 @@ async def of_tables(requests: RequestQueue, tables: Mapping[str, Any], work: Cal
 
 async def _quick(
     requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[compute.Run], Answer]
-) -> tuple[case_file.Case, tuple[Answer, ...]]:
+) -> tuple[Case, tuple[Answer, ...]]:
     """A case and the answer to quick work on its run; none where many balls are computed one by one."""
 
-    def answer() -> tuple[case_file.Case, tuple[Answer, ...]]:
+    def answer() -> tuple[Case, tuple[Answer, ...]]:
         case = case_of(tables)
         is_heavy = limits.balls_of(case) > limits.MANY_BALLS or limits.has_long_motion(case)
         return case, () if is_heavy else (work(documents.run_of(case, tables)),)

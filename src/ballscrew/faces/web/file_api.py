@@ -19,7 +19,7 @@ from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
 from ballscrew.basis.errors import Fault, InputError, nearest
-from ballscrew.basis.output.json_text import as_json as json_text
+from ballscrew.basis.output import json_text
 from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.opened_file import opened
@@ -90,7 +90,7 @@ async def project(
         refuse_nulls(body.designs)
         designs = designs_of({KEY: VERSION, "designs": body.designs}, "request")
         tables = tables_of(designs)
-        return Response(tomli_w.dumps(tables) if kind == "toml" else json_text(tables), media_type=KINDS[kind])
+        return Response(tomli_w.dumps(tables) if kind == "toml" else json_text.as_json(tables), media_type=KINDS[kind])
 
     return await heavy(request, work)
 

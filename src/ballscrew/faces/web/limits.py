@@ -19,7 +19,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation import recordings
 from ballscrew.engine.uncertainty.bands import NUT_SAMPLES, SAMPLES
 from ballscrew.faces.page.bundle import policy

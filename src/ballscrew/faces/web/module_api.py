@@ -23,8 +23,9 @@ from ballscrew.faces.web.endpoint_parts import as_json, cancellable, queue_of
 from ballscrew.faces.web.files import FOR_GOOD
 from ballscrew.faces.web.modules import Modules, NotMadeError
 from ballscrew.faces.web.problems import Refused
-from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE
+from ballscrew.physics.components.materials import OF_A_GRADE
 from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.curves import axes_around
 from ballscrew.questions.shared.answer_parts import Closed, Number
 from ballscrew.questions.shared.answer_parts import Tables as AnyTables

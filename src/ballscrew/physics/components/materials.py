@@ -34,10 +34,15 @@ from ballscrew.basis.quantities import (
 )
 from ballscrew.basis.usual_ranges import warn_at_once
 from ballscrew.physics.components.data_sheet import AT_40, AT_100, SHEET_TEMPERATURE, DataSheet, viscosity_index
-from ballscrew.physics.components.oil_grades import PARAFFINIC, LimitingShear, OilState, oil_of_grade, oil_of_sheet
-from ballscrew.physics.components.oil_grades import TEMPERATURE as TEMPERATURE
-from ballscrew.physics.components.oil_grades import grades as grades
-from ballscrew.physics.components.oil_grades import nominal_oil as nominal_oil
+from ballscrew.physics.components.oil_grades import (
+    PARAFFINIC,
+    TEMPERATURE,
+    LimitingShear,
+    OilState,
+    nominal_oil,
+    oil_of_grade,
+    oil_of_sheet,
+)
 from ballscrew.physics.equations import rheology
 
 #: How far the grooves go up the ball, of its radius, or of the height of its contacts: catalogues do not say.

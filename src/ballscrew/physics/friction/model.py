@@ -25,6 +25,7 @@ from ballscrew.physics.friction.law_names import fault_of_law
 from ballscrew.physics.friction.loaded_balls import balls_under, loads_of, row_of_balls
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import named_parts
+from ballscrew.physics.laws import film
 from ballscrew.physics.laws.ball_chain import (
     CircuitForceLaw,
     ProportionalBallForce,
@@ -36,7 +37,6 @@ from ballscrew.physics.laws.ball_chain import (
 )
 from ballscrew.physics.laws.contact import ContactLaws
 from ballscrew.physics.laws.film import HamrockDowson, root_sum_square_film_parameter
-from ballscrew.physics.laws.film import literal_film_parameter as printed_film_parameter
 from ballscrew.physics.laws.frame import bearing_frame, helix_frame
 from ballscrew.physics.laws.friction import RunInSharing, ZhouHoeprich
 from ballscrew.physics.laws.hertz import exact_hertz, houpert_hertz
@@ -162,7 +162,7 @@ class FrictionModel(ByValue):
             frame=bearing_frame,
             hertz=houpert_hertz,
             film=HamrockDowson(speed_exponent=0.66),
-            film_parameter=printed_film_parameter if literal_film_parameter else root_sum_square_film_parameter,
+            film_parameter=film.literal_film_parameter if literal_film_parameter else root_sum_square_film_parameter,
             ball_chain=one_neighbour,
             race_torques=printed_race_torques,
             ideal_torque=printed_ideal_torque,

@@ -26,7 +26,7 @@ from ballscrew.basis.records import Record
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import transmission
 from ballscrew.physics.friction import directions, loaded_balls, starvation
-from ballscrew.physics.friction.balls import MECHANISMS as MECHANISMS
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.loaded_balls import LoadedBalls, LoadedPair
 from ballscrew.physics.friction.validity import (
     NUT_CONDITIONS,

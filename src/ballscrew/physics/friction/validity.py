@@ -13,7 +13,6 @@ from ballscrew.basis.arrays import namespace
 from ballscrew.basis.errors import is_concrete
 from ballscrew.basis.quantities import Mask, Ratio, Torque, fields_of, within_bounds
 from ballscrew.basis.records import Judgement, Record, Sentence, Shown
-from ballscrew.basis.usual_ranges import IMPLAUSIBLE as IMPLAUSIBLE
 from ballscrew.basis.usual_ranges import unusual
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.screw import MATERIALS, BallScrew, odd_preload

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length, Power, Ratio
-from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels import kernel
 from ballscrew.compiler.kernels.pooled_row import pooled_row
 from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY, Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
@@ -304,7 +304,7 @@ def chain_run(
     Its steps are ``compiled`` by default where the compiler is installed, with the same result.
     """
     zone, count = circuit.zone, circuit.balls
-    by_kernel = kernels.available() if compiled is None else compiled
+    by_kernel = kernel.available() if compiled is None else compiled
     turned = step * zone.ball_diameter / zone.natural_speed
     moments = math.ceil(circulations * circuit.length / zone.natural_speed / turned)
     first = math.floor(SETTLING / circulations * moments)

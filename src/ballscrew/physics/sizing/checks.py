@@ -15,16 +15,9 @@ from ballscrew.physics.components.nut import Nut, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry, life
-from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME
-from ballscrew.physics.sizing.check_table import HOUR as HOUR
-from ballscrew.physics.sizing.check_table import NOT_CHECKED as NOT_CHECKED
-from ballscrew.physics.sizing.check_table import NOT_JUDGED as NOT_JUDGED
-from ballscrew.physics.sizing.check_table import UNJUDGED as UNJUDGED
+from ballscrew.physics.sizing.check_table import CHECKS, NOT_CHECKED, RUNNING_TIME
 from ballscrew.physics.sizing.dn_limits import GENERAL, SpeedLimit
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
-from ballscrew.physics.sizing.ratings import Ratings as Ratings
-from ballscrew.physics.sizing.ratings import ratings_of as ratings_of
 from ballscrew.physics.sizing.sources import Source
 
 #: The kind of source of the formulas and limits of each check, where its inputs do not change it.

@@ -8,8 +8,7 @@ from typing import Any, NamedTuple, Protocol
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.errors import plain
 from ballscrew.basis.quantities import Angle, Count, Force, Length, Ratio
-from ballscrew.physics.components.screw import RATING_CONFORMITY as RATING_CONFORMITY
-from ballscrew.physics.components.screw import BallScrew, dynamic_load_rating
+from ballscrew.physics.components.screw import RATING_CONFORMITY, BallScrew, dynamic_load_rating
 from ballscrew.physics.equations import geometry, rating
 
 

@@ -19,7 +19,6 @@ from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.makers_rules import make_of
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
-from ballscrew.cases.schema.case_schema import LAWS
 from ballscrew.engine.evaluation.comparison import Candidate
 from ballscrew.engine.uncertainty import bands
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
@@ -27,9 +26,9 @@ from ballscrew.engine.uncertainty.bands import Band, BandCurve
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal
 from ballscrew.engine.uncertainty.monte_carlo import Joint, JointParts, JointSamples, sobol_sequence
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, calibrations, is_of_maker
-from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.law_names import LAWS, coefficients
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import preload_of
 from ballscrew.questions.band.options import BandOptions

@@ -358,7 +358,7 @@ def _of_known_preload(nut: Nut, preload: Force) -> Nut:
     return nut.changed("preload", preload) if isinstance(nut, OversizeBallNut) else nut
 
 
-def _computed(case: case_file.Case) -> Ratings | None:
+def _computed(case: Case) -> Ratings | None:
     try:
         return nut_tables.ratings(case.screw, case.row)
     except InputError:
@@ -397,7 +397,7 @@ def _document(checked: Checked) -> dict[str, Any]:
     return {
         "name": checked.name,
         "nut": kind_of(checked.nut.nut),
-        "inputs": case_file.inputs(case),
+        "inputs": inputs.inputs(case),
         **numbers(results=results(checked.run), **beside),
         "checks": [check_document(check) for check in checked.checks],
         "judged": judged(checked.checks),

@@ -12,11 +12,13 @@ from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Info, Ratio, Torque, Unit, quantities_of
 from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.inputs import of_case
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.inputs import inputs, of_case
 from ballscrew.cases.case_files.makers_rules import subject_of
-from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of, name_of_law
+from ballscrew.cases.schema.case_schema import MODELS, coefficients_of, name_of_law
 from ballscrew.engine.evaluation.comparison import Candidate, ComparedRule, Comparison, OfBalls, Row, compare, same_law
 from ballscrew.engine.evaluation.comparison import Spread as TwoRows
+from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.laws.traits import traits_of
@@ -26,7 +28,7 @@ from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import LEFT_OUT, OneOf, from_attributes
 
 
-def candidates(case: case_file.Case) -> tuple[list[Candidate], list[Candidate]]:
+def candidates(case: Case) -> tuple[list[Candidate], list[Candidate]]:
     """All models, and the case's model with each other law of each slot.
 
     A law has its own coefficients, but keeps what the case has changed if it has that coefficient, too.
@@ -68,7 +70,7 @@ def _coefficients(law: Any) -> dict[str, Any]:
 
 
 @overflow_as_input_error()
-def comparison(case: case_file.Case, done: Callable[[int, int], None] | None = None) -> Comparison:
+def comparison(case: Case, done: Callable[[int, int], None] | None = None) -> Comparison:
     """The comparison of a case; ``done(finished, total)`` reports the progress by rows."""
     models, laws = candidates(case)
     result = compare(case.model, models, laws, case.screw, case.lubricant, case.operation, done)
@@ -86,7 +88,7 @@ def _of_balls(row: Row, drag: float) -> OfBalls:
     return OfBalls(torque, Estimate(torque).efficiency(ideal), drag, losses)
 
 
-def _drag_torque(case: case_file.Case) -> tuple[float, float]:
+def _drag_torque(case: Case) -> tuple[float, float]:
     """Torque of the preloaded nut without load, and what of it are seals and other losses; NaN without preload."""
     if not float(preload_of(case.screw, case.screw.nut)):
         return math.nan, math.nan
@@ -95,7 +97,7 @@ def _drag_torque(case: case_file.Case) -> tuple[float, float]:
     return float(idle.screw_torque), float(sum(idle.losses.values()))
 
 
-def _rules(case: case_file.Case, balls: OfBalls) -> list[ComparedRule]:
+def _rules(case: Case, balls: OfBalls) -> list[ComparedRule]:
     """The rules of one line on the screw of the case, beside the torques of the balls of its model."""
     subject = subject_of(case)
     rows: list[ComparedRule] = []
@@ -123,7 +125,7 @@ def _change(value: float, reference: float) -> float:
     return value / reference - 1 if reference else math.nan
 
 
-def models_without_nut(case: case_file.Case) -> list[str]:
+def models_without_nut(case: Case) -> list[str]:
     """Names of the models that cannot compute the nut of the case, and are left out."""
     models, _ = candidates(case)
     return [c.name for c in models if not c.model.knows(case.screw.nut)]
@@ -258,11 +260,11 @@ _UNITS = {name: unit for cls in (ComparedLaw, ComparedRule, OfBalls) for name, u
 _MOST_SHOWN, LEAST_SHOWN = 3, 0.005
 
 
-def document(case: case_file.Case, result: Comparison) -> dict[str, Any]:
+def document(case: Case, result: Comparison) -> dict[str, Any]:
     """Inputs, all rows in SI, the spread, provenance."""
     failing = {reason for row in result.rows for reason in row.outside}
     return {
-        "inputs": case_file.inputs(case),
+        "inputs": inputs(case),
         **declared.document(compared(result)),
         "units": dict(_UNITS),
         "reasons": {reason: text for reason, text in NUT_REASONS.items() if reason in failing},
@@ -274,7 +276,7 @@ def document(case: case_file.Case, result: Comparison) -> dict[str, Any]:
     }
 
 
-def warnings(case: case_file.Case, result: Comparison) -> list[Record]:
+def warnings(case: Case, result: Comparison) -> list[Record]:
     """The warnings of the case itself."""
     return [*result.case.result.warning_records, *case.doubts]
 

@@ -24,13 +24,16 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.quantities import Info, Quantity, quantities_of
 from ballscrew.basis.records import Record
+from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.spelling import THOUSANDS
-from ballscrew.cases.schema.case_schema import LAWS, name_of_law
+from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.engine.evaluation.comparison import Comparison, Row
-from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
-from ballscrew.physics.friction.validity import IMPLAUSIBLE, NUT_REASONS
+from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.questions.compare.compute import models_without_nut, percent, verdicts, warnings
 from ballscrew.questions.shared.charts import colour_of
 

@@ -14,7 +14,8 @@ from ballscrew.basis.output.sheet import Bar, Bars, Cell, Line, Lines, Number, S
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file, descriptions, project
-from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.check.compute import Checked, checked, list_document, with_nut_named
 from ballscrew.questions.check.sheet import cells
 from ballscrew.questions.shared.charts import colour_of

@@ -42,7 +42,7 @@ from ballscrew.evidence.service.condition import condition
 from ballscrew.evidence.service.condition_values import Condition, Part, State
 from ballscrew.files.torque_logs import reading, torque_series
 from ballscrew.files.torque_logs.torque_series import quantities
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.service.compute import distributions
 from ballscrew.questions.shared.declared import FINITE, from_attributes, parts_like

@@ -42,10 +42,11 @@ from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.across_groove import in_motion
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.element import FrictionElement
 from ballscrew.physics.friction.loaded_balls import loads_of
-from ballscrew.physics.friction.result import MECHANISMS
-from ballscrew.physics.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
+from ballscrew.physics.sizing.check_table import NOT_CHECKED, NOT_JUDGED, UNJUDGED
+from ballscrew.physics.sizing.checks import Check, checks
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.duty.parts import (

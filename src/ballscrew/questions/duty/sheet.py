@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ballscrew.axis.duty_cycle.axis import Axis as AxisOfMass
+from ballscrew.axis.duty_cycle import axis
 from ballscrew.axis.duty_cycle.brake import LetGo
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.basis import units
@@ -39,7 +39,7 @@ from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.starvation import FULL_BATH
 from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, DutyReport, cause_of, words_of
 from ballscrew.questions.duty.parts import PhaseNumbers
@@ -51,7 +51,7 @@ from ballscrew.questions.shared.elements_text import element_lines
 if TYPE_CHECKING:  # loads xarray
     from ballscrew.questions.duty.band import DutyBandReport
 
-_MASS, _MOTION = fields_of(AxisOfMass), fields_of(Trapezoid)
+_MASS, _MOTION = fields_of(axis.Axis), fields_of(Trapezoid)
 _STROKE, _SPEED = _MOTION["stroke"], _MOTION["speed"]
 _FORCE, _TURNS, _ROTATION = LISTED["dynamic_load_rating"], NUMBERS["life_revolutions"], NUMBERS["mean_speed"]
 _TIME, _TORQUE, _ENERGY, _POWER = (NUMBERS[name] for name in ("cycle_time", "torque_rms", "energy_lost", "power_peak"))

@@ -25,7 +25,7 @@ from ballscrew.evidence.calibration.plausibility import shown_with_interval
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.fit.options import DEFAULT_FREE, FitOptions
 from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag
 

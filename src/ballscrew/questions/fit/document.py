@@ -12,8 +12,9 @@ from pydantic import Field
 
 from ballscrew.basis.quantities import Info, TemperatureDifference, Torque
 from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import case_file, fitted_case
+from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.inputs import inputs
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.fit_result import Estimate, Trend
 from ballscrew.evidence.calibration.identifiability import Combination
@@ -208,7 +209,7 @@ def document(case: Case, report: FitReport) -> dict[str, Any]:
         "verdicts": documents(model.verdict_records),
         "checks": [],
         "warnings": documents(model.warning_records),
-        "inputs": case_file.inputs(case),
+        "inputs": inputs(case),
         "provenance": fitted_case.provenance_of(case, model),
         **({"assumed": list(report.assumed)} if report.assumed else {}),
     }

@@ -38,7 +38,7 @@ from ballscrew.basis.output.sheet import (
     words,
 )
 from ballscrew.basis.quantities import Info, Quantity, quantities_of
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.fit_result import Estimate

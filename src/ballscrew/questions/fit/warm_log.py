@@ -17,7 +17,7 @@ from ballscrew.basis.errors import Fault, InputError
 from ballscrew.cases.case_files.case import Case
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.warm_up.compute import assumed_of, bearings_of, check_oil, length_of, stroke_of
 
 OPTION = "--self-heating"

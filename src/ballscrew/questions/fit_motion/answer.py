@@ -34,7 +34,7 @@ from ballscrew.basis.output.sheet import (
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.records import documents
 from ballscrew.basis.references import documentation, keys_in
-from ballscrew.cases.case_files import case_file, inputs
+from ballscrew.cases.case_files import inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.moving_logs.motion_fit import (
@@ -95,7 +95,7 @@ def document(case: Case, motion_fit: MotionFit) -> dict[str, Any]:
         "checks": [],
         "warnings": documents(motion_fit.warning_records),
         "rows": _rows_document(motion_fit),
-        "inputs": case_file.inputs(case),
+        "inputs": inputs.inputs(case),
         "provenance": {
             **inputs.of_case(case),
             "log": name,

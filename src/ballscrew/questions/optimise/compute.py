@@ -26,8 +26,7 @@ from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.listed_nut import PRELOADED
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.optimise.design_model import VARIABLES, DesignModel, DesignSpace, design_space
-from ballscrew.questions.select import requirement_checks
-from ballscrew.questions.select.candidates import objectives as objectives_of
+from ballscrew.questions.select import candidates, requirement_checks
 from ballscrew.questions.select.need import Need, need_of
 from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_LENGTH, front, shaft_length
 from ballscrew.questions.shared.every_row import copied
@@ -443,7 +442,7 @@ def _member(
     tables = tables_of(need, space, variables, balls=balls, preload=preload)
     case = _built(need, tables, options)
     whole = checked(f"design {place + 1}", case, need.notes)
-    numbers = objectives_of(need, whole, None)
+    numbers = candidates.objectives(need, whole, None)
     searched = {
         name: OBJECTIVES[name].sign * float(cost)
         for name, cost in zip(space.objectives, result.costs[place], strict=True)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from ballscrew.cases.case_files import descriptions
 from ballscrew.evidence.papers.olaru2005 import case
-from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.questions.reproduce.preloaded_nut import DRAG, PICTURE, PreloadedNut, label_of, level
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import Columns, Plot

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ballscrew.basis.output.wrapping import aligned
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files import case_file, case_text
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import nut_text, operating_point
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.questions.band.compute import BandReport, band

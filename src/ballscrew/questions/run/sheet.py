@@ -26,7 +26,8 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.makers_rules import BY_RULE
 from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, kind_of
-from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.starvation import FULL_BATH
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRigidity

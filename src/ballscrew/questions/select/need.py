@@ -17,7 +17,7 @@ from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import read_table, sections
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.physics.components.materials import grades
+from ballscrew.physics.components.oil_grades import grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.sizing.installation import Installation
 from ballscrew.questions.select.need_motion import OF_MOTION, with_motion

@@ -27,7 +27,7 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.basis.records import Record
-from ballscrew.cases.case_files import case_file
+from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, title
 from ballscrew.cases.case_files.spelling import THOUSANDS
@@ -36,9 +36,8 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty import sensitivity as analysis
 from ballscrew.engine.uncertainty.sensitivity import ANOTHER_METHOD, HALF, MEASURES, METHODS, Method, Sensitivity
 from ballscrew.engine.uncertainty.sobol import Estimate
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import MATERIALS
-from ballscrew.physics.friction.validity import IMPLAUSIBLE
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, OneOf, from_attributes
 from ballscrew.questions.shared.envelope import envelope
@@ -64,7 +63,7 @@ class SensitivityReport:
 
 
 def sensitivity(
-    case: case_file.Case, options: SensitivityOptions, done: Callable[[int, int], None] | None = None
+    case: Case, options: SensitivityOptions, done: Callable[[int, int], None] | None = None
 ) -> SensitivityReport:
     """Sensitivity of a case. Raises ``InputError`` that names options of the command line."""
     uncertain = all_of(case, options.only_given)
@@ -158,7 +157,7 @@ class Indices(NamedTuple):
     seed: int
 
 
-def document(case: case_file.Case, report: SensitivityReport) -> dict[str, Any]:
+def document(case: Case, report: SensitivityReport) -> dict[str, Any]:
     """Inputs, indices, what to measure next, units and provenance."""
     result = report.result
     indices = from_attributes(
@@ -222,7 +221,7 @@ def verdicts(report: SensitivityReport) -> list[Record]:
     return records
 
 
-def warnings(case: case_file.Case, report: SensitivityReport) -> list[Record]:
+def warnings(case: Case, report: SensitivityReport) -> list[Record]:
     """Implausible inputs, samples without a number, and the correlation of a calibration, which is not sampled."""
     records = case.implausible()
     result = report.result

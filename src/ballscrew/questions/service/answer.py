@@ -16,7 +16,7 @@ from ballscrew.evidence.service.alternatives import Alternative
 from ballscrew.evidence.service.posterior import PRELOAD
 from ballscrew.evidence.service.preload_change import VERDICTS, PreloadChange
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
 from ballscrew.questions.shared.declared import LEFT_OUT, from_attributes
 from ballscrew.questions.shared.envelope import envelope

@@ -25,7 +25,7 @@ from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.evidence.service.preload_of_torque import preload_of_torque
 from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
 from ballscrew.questions.shared.log_points import Numbers, some

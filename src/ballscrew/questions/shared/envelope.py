@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ballscrew.basis.records import Record, documents
-from ballscrew.cases.case_files import case_file, inputs
+from ballscrew.cases.case_files import inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.shared import declared
 
@@ -30,7 +30,7 @@ def envelope(
     else it rests on.
     """
     return {
-        "inputs": case_file.inputs(case),
+        "inputs": inputs.inputs(case),
         **numbers(**{named: results}, **(beside or {})),
         **({} if units is None else {"units": dict(units)}),
         **({} if assumed is None else {"assumed": list(assumed)}),

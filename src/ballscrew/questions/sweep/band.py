@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ballscrew.basis.errors import raise_if_any
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.cases.case_files import uncertain_inputs
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION, inputs_of
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.band_evaluation import Values, faults_of_options, tails
@@ -21,13 +21,12 @@ from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
 from ballscrew.engine.uncertainty.bands import ENDS, INNER_LEVELS, NUT_SAMPLES, SAMPLES, inner_end, with_ends
 from ballscrew.engine.uncertainty.distributions import Distribution, scaled
 from ballscrew.engine.uncertainty.monte_carlo import Joint
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.band import compute
 from ballscrew.questions.band.compute import LEVEL
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.shared.option_values import faults_named
-from ballscrew.questions.sweep import compute as sweeps
-from ballscrew.questions.sweep.compute import Plan
+from ballscrew.questions.sweep.compute import FLOODED, Plan, given_of_oil, unvaried
 
 #: Shares of the samples between the ends of the narrower intervals of a document, as far as they are below its level.
 INNER = (0.5, 0.8)
@@ -65,7 +64,7 @@ def with_band(
     ``recorded``: no bit depends on the kernels that are kept. Raises
     :class:`~ballscrew.basis.errors.InputError` that names options of the command line.
     """
-    outputs = tuple(name for name in plan.outputs if name != sweeps.FLOODED)
+    outputs = tuple(name for name in plan.outputs if name != FLOODED)
     count = options.samples
     if count is None:
         count = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
@@ -130,7 +129,7 @@ def _points(case: Case, plan: Plan) -> dict[str, Values]:
     # fields of the nut have two names
     points = {name.removeprefix("nut."): np.ravel(values) for name, values in zip(plan.axes, grid, strict=True)}
     size = np.size(grid[0]) if grid else 1
-    for name, value in sweeps.unvaried(case, plan).items():
+    for name, value in unvaried(case, plan).items():
         if isinstance(value, xr.DataArray):  # the speed of a nut whose lead is varied
             of_lead = np.unravel_index(np.arange(size), [len(values) for values in plan.axes.values()])
             points[name] = value.to_numpy()[of_lead[list(plan.axes).index("lead")]]
@@ -151,9 +150,9 @@ def _groups(
     known = inputs_of(case.model, case.screw, case.lubricant)
     axes = [name for name in points if name not in OPERATION]
     of_model = [name for name in axes if known[name][0] == _MODEL]
-    given_of_oil = sweeps.given_of_oil(case) if TEMPERATURE.name in axes else {}
+    oil = given_of_oil(case) if TEMPERATURE.name in axes else {}
     # an oil of which numbers are given beside its temperature is another oil at each
-    own = [*of_model, *([TEMPERATURE.name] if given_of_oil else [])]
+    own = [*of_model, *([TEMPERATURE.name] if oil else [])]
     inputs: dict[tuple[float, ...], _Inputs] = {}
     members: dict[tuple[Any, ...], list[int]] = {}
     subjects: dict[tuple[float, ...], Configuration] = {}
@@ -162,13 +161,13 @@ def _groups(
         here = {name: float(points[name][place]) for name in axes}
         at = tuple(here.values())
         if at not in inputs:
-            inputs[at] = _inputs_at(case, here, given_of_oil, varied, only_given=only_given)
+            inputs[at] = _inputs_at(case, here, oil, varied, only_given=only_given)
         of_place[place] = inputs[at]
         subject = tuple(here[name] for name in own)
         if subject not in subjects:
             base = Configuration(case.model, case.screw, case.lubricant)
             changes = {name: here[name] for name in own}
-            subjects[subject] = base.changed({**changes, **given_of_oil}) if own else base
+            subjects[subject] = base.changed({**changes, **oil}) if own else base
         joint = inputs[at].joint
         names = (tuple(inputs[at].uncertain), () if joint is None else joint.names)
         members.setdefault((subject, *names), []).append(place)

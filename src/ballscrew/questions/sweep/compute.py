@@ -21,7 +21,7 @@ from ballscrew.basis.errors import Fault, InputError, either, fault_of, nearest,
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Record
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.engine.evaluation.engines import FEW_POINTS
 from ballscrew.engine.evaluation.outputs import (
@@ -39,7 +39,7 @@ from ballscrew.engine.sweeps.cluster import cluster_client
 from ballscrew.engine.sweeps.stream import stream
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.engine.uncertainty.bands import ENDS
-from ballscrew.physics.components.materials import TEMPERATURE, nominal_oil
+from ballscrew.physics.components.oil_grades import TEMPERATURE, nominal_oil
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
 from ballscrew.physics.laws.traits import traits_of

@@ -13,7 +13,7 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.sheet import Axis, Band, Chart, Column, Columns, Curve, Line, Lines, Map, Sheet
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.engine.sweeps.store_check import count_false
 from ballscrew.engine.sweeps.store_plan import Blocks

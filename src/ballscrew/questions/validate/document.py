@@ -9,9 +9,8 @@ from typing import Any
 
 from pydantic import Field
 
-from ballscrew.basis import units
+from ballscrew.basis import records, units
 from ballscrew.basis.records import Record
-from ballscrew.basis.records import documents as documents_of
 from ballscrew.evidence.validation.entries import Entry, Point, ValidationSet
 from ballscrew.questions.shared.answer_parts import Number, Open
 from ballscrew.questions.shared.declared import attributes
@@ -37,8 +36,8 @@ def _document(entry: Entry) -> dict[str, Any]:
         **({"upper_bound": True} if entry.data.bound else {}),
         **({} if entry.data.card is None else {"card": dict(entry.data.card)}),
         "verdicts": [],
-        "checks": documents_of(checks(entry)),
-        "warnings": documents_of(warnings(entry)),
+        "checks": records.documents(checks(entry)),
+        "warnings": records.documents(warnings(entry)),
         "rows": [_row(point, entry.data) for point in entry.points],
     }
 

@@ -26,7 +26,7 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.evidence.validation.entries import DESCRIPTORS, Entry, Point, RuleEntry, ValidationSet, may_be_fitted
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel

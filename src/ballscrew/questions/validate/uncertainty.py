@@ -9,7 +9,7 @@ import numpy as np
 
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import uncertain_inputs
-from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of

@@ -20,7 +20,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain
 from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
 from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.shared.option_values import faults_named
 from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, duty_of, length_of
 

@@ -17,7 +17,7 @@ from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Temperature, Torque, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
-from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.shared.declared import from_attributes

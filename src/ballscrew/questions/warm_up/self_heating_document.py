@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.inputs import inputs
 from ballscrew.questions.shared import declared
 
 if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
@@ -19,7 +19,7 @@ def with_self_heating(document: Mapping[str, Any], heating: SelfHeating | None) 
         return dict(document)
     return {
         **document,
-        "inputs": case_file.inputs(heating.given),
+        "inputs": inputs(heating.given),
         "results": {**document.get("results", {}), "self_heating": declared.document(heating.numbers)},
         "units": {**document.get("units", {}), "self_heating": declared.units(heating.numbers)},
         "assumed": [*document.get("assumed", ()), *heating.assumed],

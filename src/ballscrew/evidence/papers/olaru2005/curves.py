@@ -11,8 +11,8 @@ import xarray as xr
 from ballscrew.engine.sweeps.sweep import sweep
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.equations.transmission import efficiency
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.friction.validity import REASONS
 
 #: The models whose figures are drawn.

@@ -15,11 +15,9 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import equilibrium, friction
 from ballscrew.physics.equations.transmission import efficiency
+from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import (
-    MECHANISMS,
-    FrictionResult,
-)
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.contact import RaceState
 
 #: Steps of 1 rpm, then of 0.05 rpm around the smallest torque found.

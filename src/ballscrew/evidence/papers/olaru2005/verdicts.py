@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.evidence.papers.olaru2005.observations import Observations, Range, Split
-from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.balls import MECHANISMS
 
 #: Residuals below this are rounding.
 _ROUNDING = 1e-10
