@@ -36,9 +36,15 @@ ENDS = 1e-6 * np.array([0, 5, 10, 20, 35, 50, 100, 300, 500, 800])
 OFF = {"mass +1 %": (0.01, 0.0), "mass -1 %": (-0.01, 0.0), "1 ms late": (0.0, 1e-3), "1 ms early": (0.0, -1e-3)}
 #: A guess, as in docs/howto/moving_log.md.
 SCREW = bs.BallScrew(
-    pitch_circle_diameter=12.6e-3, lead=LEAD, ball_diameter=1.588e-3, contact_angle=math.pi / 4, loaded_balls=70,
-    screw_conformity=0.53, nut_conformity=0.53, nut=bs.DoubleNut(preload=150.0),
-)  # fmt: skip
+    pitch_circle_diameter=12.6e-3,
+    lead=LEAD,
+    ball_diameter=1.588e-3,
+    contact_angle=math.pi / 4,
+    loaded_balls=70,
+    screw_conformity=0.53,
+    nut_conformity=0.53,
+    nut=bs.DoubleNut(preload=150.0),
+)
 OIL = bs.Lubricant.from_grade("ISO VG 100", 303.15)
 #: Speed of the computed curve, rad/s: 2 mm/s, which the axis has after some tens of µm.
 SPEED = 2 * math.pi * 2e-3 / LEAD
@@ -142,11 +148,15 @@ def table(motion: Motion, steady: Steady, mass_off: float = 0.0) -> list[dict[st
             inertia.append(float(np.mean(np.abs(pushed))))
         rows.append(
             {
-                "from_um": 1e6 * low, "to_um": 1e6 * high, "angle_deg": math.degrees(2 * math.pi * high / LEAD),
-                "friction_N": float(np.mean(friction)), "spread_N": float(np.std(friction, ddof=1)),
-                "steady_N": float(np.mean(law)), "inertia_N": float(np.mean(inertia)),
+                "from_um": 1e6 * low,
+                "to_um": 1e6 * high,
+                "angle_deg": math.degrees(2 * math.pi * high / LEAD),
+                "friction_N": float(np.mean(friction)),
+                "spread_N": float(np.std(friction, ddof=1)),
+                "steady_N": float(np.mean(law)),
+                "inertia_N": float(np.mean(inertia)),
             }
-        )  # fmt: skip
+        )
     return rows
 
 

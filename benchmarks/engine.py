@@ -174,9 +174,7 @@ def grid_case(points: int) -> Case:
     grid = in_letters(dict(zip(OPERATION, np.meshgrid(*axes.values(), indexing="ij"), strict=True)))
     broad = in_letters(dict(zip(OPERATION, np.meshgrid(*axes.values(), indexing="ij", sparse=True), strict=True)))
     shape = (side,) * 3
-    expected = {
-        n: np.broadcast_to(v, shape) for n, v in zip(OUTPUTS, formulas_on_arrays(**broad), strict=True)
-    }  # fmt: skip
+    expected = {n: np.broadcast_to(v, shape) for n, v in zip(OUTPUTS, formulas_on_arrays(**broad), strict=True)}
     total = side**3
     work: dict[str, Callable[[], Any]] = {
         "memory": moving(0, len(OUTPUTS), total),

@@ -113,10 +113,19 @@ def rows(presets: tuple[str, ...], most: int) -> Iterator[tuple[str, ...]]:
             size = len(bs.hand_over(model, screw, oil, to="fmu").files[f"{fmu.IDENTIFIER}.fmu"])
             source = len(c99.source(one))
             yield (
-                preset, kind, f"{steps(one):,}", f"{to_c:.2f}", f"{source / 1e3:.0f}", f"{took:.1f}",
-                f"{1e6 * call:.1f}", f"{1e6 * read:.1f}", f"{to_fmu:.2f}", f"{size / 1e3:.0f}", f"{worst:.1e}",
+                preset,
+                kind,
+                f"{steps(one):,}",
+                f"{to_c:.2f}",
+                f"{source / 1e3:.0f}",
+                f"{took:.1f}",
+                f"{1e6 * call:.1f}",
+                f"{1e6 * read:.1f}",
+                f"{to_fmu:.2f}",
+                f"{size / 1e3:.0f}",
+                f"{worst:.1e}",
                 f"{others}",
-            )  # fmt: skip
+            )
 
 
 if __name__ == "__main__":

@@ -77,12 +77,17 @@ def _rows(name: str, stated: Callable[[Point], float], kept: Callable[[Point], b
     none, some = _points(name, 0.0), _points(name, SHARE)
     return [
         Row(
-            point.name, point.group, point.descriptors["size"], point.descriptors["lead"], stated(point),
-            point.value, (some[point.name].value - point.value) / SHARE,
+            point.name,
+            point.group,
+            point.descriptors["size"],
+            point.descriptors["lead"],
+            stated(point),
+            point.value,
+            (some[point.name].value - point.value) / SHARE,
         )
         for point in none.values()
         if kept(point)
-    ]  # fmt: skip
+    ]
 
 
 def hiwin_rows(declared: bool = True) -> list[Row]:

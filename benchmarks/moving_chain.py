@@ -51,9 +51,16 @@ def draws(number: int) -> list[Draw]:
 def moved(screw: bs.BallScrew, speed: float, circuits: int, draw: Draw) -> MovingChain:
     """The balls of a circuit that was drawn."""
     return bs.moving_chain(
-        MODEL, screw, OIL, axial_load=0.0, screw_speed=speed, gap=draw.gap, groove_deviation=draw.deviation,
-        seed=draw.seed, circuits=circuits,
-    )  # fmt: skip
+        MODEL,
+        screw,
+        OIL,
+        axial_load=0.0,
+        screw_speed=speed,
+        gap=draw.gap,
+        groove_deviation=draw.deviation,
+        seed=draw.seed,
+        circuits=circuits,
+    )
 
 
 def by_law(screw: bs.BallScrew, speed: float, circuits: int, draw: Draw) -> float:
@@ -72,9 +79,15 @@ def row(name: str, speed: float, circuits: int, drawn: list[Draw], plain: bool) 
     slow = "–"
     if plain:
         zone = loaded_zone(
-            MODEL, screw, OIL, axial_load=0.0, screw_speed=speed, groove_deviation=drawn[0].deviation, seed=0,
+            MODEL,
+            screw,
+            OIL,
+            axial_load=0.0,
+            screw_speed=speed,
+            groove_deviation=drawn[0].deviation,
+            seed=0,
             circuits=circuits,
-        )  # fmt: skip
+        )
         circuit = circuit_of(MODEL, screw, OIL, zone, speed, drawn[0].gap, circuits, None, WALL_FACTOR)
         slow = f"{seconds(lambda: chain_run(circuit, speed, compiled=False)):.1f}"
     shares = np.quantile([run.share for run in runs], QUANTILES)

@@ -26,9 +26,14 @@ SPEED = 2 * math.pi * 100 / 60
 def _screw(d_m: float, lead: float, d_w: float) -> BallScrew:
     """A screw with the usual grooves, by its sizes in millimetres."""
     return bs.BallScrew(
-        pitch_circle_diameter=d_m * 1e-3, lead=lead * 1e-3, ball_diameter=d_w * 1e-3, contact_angle=math.radians(45),
-        loaded_balls=30, screw_conformity=0.54, nut_conformity=0.54,
-    )  # fmt: skip
+        pitch_circle_diameter=d_m * 1e-3,
+        lead=lead * 1e-3,
+        ball_diameter=d_w * 1e-3,
+        contact_angle=math.radians(45),
+        loaded_balls=30,
+        screw_conformity=0.54,
+        nut_conformity=0.54,
+    )
 
 
 #: Screws, and the load of a ball, N, at about 5 % of the dynamic rating.
@@ -57,11 +62,10 @@ def _row(name: str, screw: BallScrew, load: float) -> list[str]:
         bs.off_line_balls(REFERENCE, screw, OIL, axial_load=axial, screw_speed=way * SPEED) for way in (1, -1)
     )
     ratios = [
-        preload_off_line(
-            dataclasses.replace(screw, nut=bs.DoubleNut(preload=axial, bodies=bodies)), math.atan(share)
-        ) / axial
+        preload_off_line(dataclasses.replace(screw, nut=bs.DoubleNut(preload=axial, bodies=bodies)), math.atan(share))
+        / axial
         for bodies in (None, bs.Bodies())
-    ]  # fmt: skip
+    ]
     return [
         name,
         f"{math.degrees(2 * math.atan(share)):.1f}°",
@@ -71,7 +75,7 @@ def _row(name: str, screw: BallScrew, load: float) -> list[str]:
         f"{float(up.spin_share):.2f}, {float(down.spin_share):.2f}",
         f"{float(up.torque_ratio):.2f}, {float(down.torque_ratio):.2f}",
         f"{1e6 * float(up.axial_step):.1f}",
-    ]  # fmt: skip
+    ]
 
 
 HEADING = (

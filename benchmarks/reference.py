@@ -274,10 +274,17 @@ def as_markdown(table: Table, cases: Box) -> str:
     if not far:
         return text
     rows = [
-        [f"{row['error']:+.1%}", f"{row['load']:.3g} N", f"{row['speed']:.0f} rpm", f"{row['lead']:.2f}",
-         f"{row['traction']:.3f}", f"{row['friction']:.3f}", "yes" if row["balanced"] else "no"]
+        [
+            f"{row['error']:+.1%}",
+            f"{row['load']:.3g} N",
+            f"{row['speed']:.0f} rpm",
+            f"{row['lead']:.2f}",
+            f"{row['traction']:.3f}",
+            f"{row['friction']:.3f}",
+            "yes" if row["balanced"] else "no",
+        ]
         for row in far[:12]
-    ]  # fmt: skip
+    ]
     return f"{text}\nBeyond {FAR:.0%} ({len(far)} cases):\n\n{markdown_table(OF_FAR, rows)}"
 
 

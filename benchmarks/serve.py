@@ -151,16 +151,20 @@ def main() -> None:
     told(
         {
             f"{USERS} users at once": {
-                "requests": len(seconds), "statuses": str(dict(statuses)), "median_s": statistics.median(seconds),
+                "requests": len(seconds),
+                "statuses": str(dict(statuses)),
+                "median_s": statistics.median(seconds),
                 "95_percent_s": shares[-1],
             },
             "mixed load": {
-                "requests": str(dict(counts)), "not as they should be": len(wrong), "first_MB": memory[0][1],
+                "requests": str(dict(counts)),
+                "not as they should be": len(wrong),
+                "first_MB": memory[0][1],
                 "last_MB": memory[-1][1],
             },
         },
         options.json,
-    )  # fmt: skip
+    )
 
 
 if __name__ == "__main__":

@@ -106,11 +106,19 @@ def table() -> str:
             (low, high), (least, most), (ends, fan) = found["page"], found["program"], found["seconds"]
             lower = sorted((1 - least / low, 1 - most / high))
             wider = math.log(most / least) / math.log(high / low) - 1
-            rows.append((
-                screw, nut, f"{low:.3f} to {high:.3f}", f"{least:.3f} to {most:.3f}",
-                f"{lower[0]:.0%} to {lower[1]:.0%}", f"{wider:.0%}", f"{found['difference']:.0e}", f"{ends:.1f}",
-                f"{fan:.1f}",
-            ))  # fmt: skip
+            rows.append(
+                (
+                    screw,
+                    nut,
+                    f"{low:.3f} to {high:.3f}",
+                    f"{least:.3f} to {most:.3f}",
+                    f"{lower[0]:.0%} to {lower[1]:.0%}",
+                    f"{wider:.0%}",
+                    f"{found['difference']:.0e}",
+                    f"{ends:.1f}",
+                    f"{fan:.1f}",
+                )
+            )
     lines = [markdown_table(HEADING, rows)]
     for end, ratios in zip(ENDS, np.transpose(list(random_ends())), strict=True):
         least, lower, median, upper, most = np.quantile(ratios, [0, 0.25, 0.5, 0.75, 1])

@@ -11,10 +11,16 @@ from ballscrew.questions.shared.text_tables import markdown_table
 def column_table() -> str:
     """One row for each column."""
     rows = [
-        (f"`{column.name}`", "" if column.quantity is None else column.quantity.info.meaning,
-         "yes" if column.required else "no", _cells(column), _listed(column.aliases), _listed(_own_hints(column)))
+        (
+            f"`{column.name}`",
+            "" if column.quantity is None else column.quantity.info.meaning,
+            "yes" if column.required else "no",
+            _cells(column),
+            _listed(column.aliases),
+            _listed(_own_hints(column)),
+        )
         for column in COLUMNS
-    ]  # fmt: skip
+    ]
     return markdown_table(("column", "meaning", "needed", "unit", "other names", "only beside another name"), rows)
 
 

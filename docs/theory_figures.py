@@ -101,9 +101,12 @@ def _grooves(panel: Axes, diameter: float, conformity: float, angle: float) -> N
     panel.add_patch(Arc((0, 0), radius, radius, theta1=-90, theta2=-90 + math.degrees(angle), color=charts.INK))
     panel.text(0.3 * radius, -0.72 * radius, "α", ha="center", va="center", fontsize=11)
     panel.annotate(
-        "A", (0.0, 0.0), xytext=(-0.62 * radius, -0.2 * radius), fontsize=10,
+        "A",
+        (0.0, 0.0),
+        xytext=(-0.62 * radius, -0.2 * radius),
+        fontsize=10,
         arrowprops={"arrowstyle": "-", "color": charts.GREY, "linewidth": 0.8, "shrinkB": 1},
-    )  # fmt: skip
+    )
     reach = 1.62 * radius
     panel.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
     panel.grid(visible=False)
@@ -175,8 +178,10 @@ def ellipses() -> Figure:
     """Contact ellipses to scale, and the pressure across them."""
     figure, panels = charts.new_figure(
         case_caption(CASES, "Above: contact ellipses, to scale; below: pressure across them, in the middle."),
-        rows=2, height=2.7, sharex=True,
-    )  # fmt: skip
+        rows=2,
+        height=2.7,
+        sharex=True,
+    )
     for shape, profile, case in zip(panels[:2], panels[2:], CASES.values(), strict=True):
         result = case.result(REFERENCE)
         shape.set_title(case.title)

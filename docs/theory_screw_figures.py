@@ -261,8 +261,9 @@ def repair_steps() -> Figure:
     found = repairs()
     figure, (alone, together) = charts.new_figure(
         case_caption({"paper": PAPER}, "Left: the printed model with one repair. Right: with all so far."),
-        height=3.3, sharey=True,
-    )  # fmt: skip
+        height=3.3,
+        sharey=True,
+    )
     for panel, torques, title in (
         (alone, [step.torque_alone for step in found], "One repair alone"),
         (together, [step.torque_so_far for step in found], "One after the other"),

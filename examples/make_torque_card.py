@@ -62,10 +62,13 @@ def text() -> str:
         temperature = 24 + rpm / 250
         true = float(
             case.model(
-                case.screw, case.lubricant, axial_load=0.0, screw_speed=rpm * np.pi / 30,
+                case.screw,
+                case.lubricant,
+                axial_load=0.0,
+                screw_speed=rpm * np.pi / 30,
                 temperature=temperature + 273.15,
             ).screw_torque
-        )  # fmt: skip
+        )
         forward, backward = (true + sign * 2e-3 + noise.normal(0, 2e-3) for sign in (1, -1))
         lines += [
             "\n[[points]]",

@@ -195,9 +195,11 @@ def attempt(_: int, number: int, __: int) -> Outcome:
         process = subprocess.Popen(
             [sys.executable, "-m", "ballscrew.faces.cli", *words],
             cwd=ROOT / "examples",
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=errors,
             preexec_fn=_limited,
-        )  # fmt: skip
+        )
         begun = time.monotonic()
         _, status, used = os.wait4(process.pid, 0)
     process.returncode = code = os.waitstatus_to_exitcode(status)

@@ -48,10 +48,9 @@ PATHS = (
     "/api/v1/openapi.json", "/docs", "/favicon.ico", "/api/v1/report?kind=exe", "/%F0%9F%98%80", "/" + "x" * 3000,
     "/?" + "a=1&" * 900,
 )  # fmt: skip
-GOOD_LOG = (
-    b"speed [rpm],axial load [N],torque [N m]\n"
-    + b"".join(b"%d,%d,%.3f\n" % (50 * n, 500 * f, 0.42 * f) for n in (1, 2, 4) for f in (2, 4, 6))
-)  # fmt: skip
+GOOD_LOG = b"speed [rpm],axial load [N],torque [N m]\n" + b"".join(
+    b"%d,%d,%.3f\n" % (50 * n, 500 * f, 0.42 * f) for n in (1, 2, 4) for f in (2, 4, 6)
+)
 METHODS = ("GET", "HEAD", "POST", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "CONNECT", "BREW", "get")
 HEADERS = (
     ("Host", "example.org"), ("Host", ""), ("Content-Type", "text/plain"),

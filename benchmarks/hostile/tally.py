@@ -63,5 +63,6 @@ class Tally:
         print(
             f"{self.name}: {counts.tried:,} of {self.wanted:,} in {self.seconds:.0f} s, {counts.answered:,} answered, "
             f"{counts.refused:,} refused, {len(counts.wrong):,} wrong",
-            file=sys.stderr, flush=True,
-        )  # fmt: skip
+            file=sys.stderr,
+            flush=True,
+        )

@@ -53,9 +53,14 @@ def slip_over_spin(cases: Cases) -> Figure:
         height = float(np.interp(at, E_s, total))
         powers.plot(at, height, "o", color="white", markeredgecolor=charts.INK, markersize=6)
         powers.annotate(
-            case.title, (at, height), xytext=(10, -6), textcoords="offset points", ha="left", fontsize=9,
+            case.title,
+            (at, height),
+            xytext=(10, -6),
+            textcoords="offset points",
+            ha="left",
+            fontsize=9,
             bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.9, "boxstyle": "round,pad=0.2"},
-        )  # fmt: skip
+        )
     powers.set(ylabel="slip power / that of curvature alone (1)", title="power", ylim=(0, None))
     at_one_line = float(np.interp(found.one_line_from, E_s, total))
     for panel, bottom, top in ((moments, -0.25, 1.0), (powers, 0.0, at_one_line)):

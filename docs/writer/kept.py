@@ -101,13 +101,15 @@ class Files:
         libraries = Path(sysconfig.get_path("purelib"))
         data = [name for name in self._digests if name.startswith("examples/") or "/data/" in name]
         return _hash(
-            json.dumps([
-                sys.version,
-                sorted(path.name for path in libraries.glob("*.dist-info")),
-                sorted(data),
-                self.digests(HERE),
-            ]).encode()
-        )  # fmt: skip
+            json.dumps(
+                [
+                    sys.version,
+                    sorted(path.name for path in libraries.glob("*.dist-info")),
+                    sorted(data),
+                    self.digests(HERE),
+                ]
+            ).encode()
+        )
 
 
 def _hash(content: bytes) -> str:

@@ -239,8 +239,12 @@ def test_json(ballscrew):
     assert set(document["units"]["derived"]) == set(document["derived"])
     assert (document["units"]["row"]["rigidity"], document["units"]["derived"]["lead_angle"]) == ("N/m", "rad")
     assert set(document["assumed"]) == {
-        "starts", "contact_angle", "conformity", "pitch_circle_diameter", "loaded_turns",
-    }  # fmt: skip
+        "starts",
+        "contact_angle",
+        "conformity",
+        "pitch_circle_diameter",
+        "loaded_turns",
+    }
     assert document["provenance"] == {"version": bs.__version__}
     listed = json.loads(ballscrew("catalogue", "list", "double", "--json").stdout)
     assert listed["rows"][3] == {key: document[key] for key in listed["rows"][3]}

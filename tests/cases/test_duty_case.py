@@ -115,9 +115,11 @@ def test_a_motor_has_its_curve():
     motor = built(SCREW + MOVING, *settings, curve).motor
     fastest = 3000 * math.pi / 30
     assert motor == Motor(
-        rated_torque=7.0, peak_torque=20.0, largest_speed=motor.largest_speed,
+        rated_torque=7.0,
+        peak_torque=20.0,
+        largest_speed=motor.largest_speed,
         curve=((0.0, 20.0), (motor.largest_speed, 10.0)),
-    )  # fmt: skip
+    )
     assert motor.largest_speed == pytest.approx(fastest, rel=1e-14)
 
 

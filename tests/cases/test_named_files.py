@@ -16,6 +16,4 @@ def test_every_named_file_is_the_same_from_the_other_folder(tmp_path):
     assert found["bearings"]["fixed"]["oil_file"] == "../../oils.toml"
     assert found["motion"] == {"file": "../../needs/cycle.csv", "segment": [{"name": "up"}]}
     assert found["lubricant"] == tables["lubricant"], "an absolute path stays"
-    assert moved(found, new, old) == {
-        **tables, "bearings": {"fixed": {"oil": "b", "oil_file": "../oils.toml"}},
-    }  # fmt: skip
+    assert moved(found, new, old) == {**tables, "bearings": {"fixed": {"oil": "b", "oil_file": "../oils.toml"}}}

@@ -103,8 +103,9 @@ def test_faults_of_a_file_are_found_all_at_once(tmp_path):
     with pytest.raises(InputError) as caught:
         bs.oils(file)
     assert [fault.where for fault in caught.value.faults] == [
-        'bad.toml: oils."A".kinematic_viscosity_100', 'bad.toml: oils."B".colour'
-    ]  # fmt: skip
+        'bad.toml: oils."A".kinematic_viscosity_100',
+        'bad.toml: oils."B".colour',
+    ]
     with pytest.raises(InputError, match="does not exist"):
         bs.oils(tmp_path / "none.toml")
 

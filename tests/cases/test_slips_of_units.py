@@ -266,9 +266,13 @@ def test_arrays_and_what_the_package_makes_are_never_warned_of():
         bs.DoubleNut(preload=np.array([3.0, 3e3]))
         case_file.load(FEED, ['nut.type="double"', 'nut.preload="3 N"'])
         bs.sweep(
-            bs.FrictionModel.corrected(), SCREW, bs.Lubricant.from_grade("ISO VG 100"),
-            lead=[0.01, 10.0], axial_load=1e3, screw_speed=10.0,
-        )  # fmt: skip
+            bs.FrictionModel.corrected(),
+            SCREW,
+            bs.Lubricant.from_grade("ISO VG 100"),
+            lead=[0.01, 10.0],
+            axial_load=1e3,
+            screw_speed=10.0,
+        )
 
 
 @pytest.mark.implausible

@@ -85,8 +85,13 @@ def test_two_fixed_bearings_share_the_load():
 
 
 def test_carriages_have_loads_of_their_own_where_the_case_tells_where_they_are():
-    case = built(BEARINGS, "guides.carriages=4", 'guides.carriage_spacing="0.4 m"', 'guides.rail_spacing="300 mm"',
-                 'guides.above="0.25 m"')  # fmt: skip
+    case = built(
+        BEARINGS,
+        "guides.carriages=4",
+        'guides.carriage_spacing="0.4 m"',
+        'guides.rail_spacing="300 mm"',
+        'guides.above="0.25 m"',
+    )
     loads = case.axis.carriage_loads(2.0)
     assert loads.sum() == pytest.approx(400 * 9.80665)
     assert loads[0] - loads[1] == pytest.approx(400 * 2.0 * 0.25 / 0.4)

@@ -72,9 +72,11 @@ def test_settings_go_into_their_tables():
     tables = {"operation": {"axial_load": "1 kN"}, "model": {"friction": "zhou-hoeprich"}}
     settings = ['operation.axial_load = "4 kN"', "limits.static_safety=3", "screw.catalogue=hiwin-40-20k4"]
     assert case_file.override(tables, settings) == {
-        "operation": {"axial_load": "4 kN"}, "model": {"friction": "zhou-hoeprich"},
-        "limits": {"static_safety": 3}, "screw": {"catalogue": "hiwin-40-20k4"},
-    }  # fmt: skip
+        "operation": {"axial_load": "4 kN"},
+        "model": {"friction": "zhou-hoeprich"},
+        "limits": {"static_safety": 3},
+        "screw": {"catalogue": "hiwin-40-20k4"},
+    }
 
 
 def test_inputs_have_what_is_given_and_nothing_else():
@@ -85,8 +87,11 @@ def test_inputs_have_what_is_given_and_nothing_else():
     mounted = Installation(unsupported_length=1.2, ends=Ends.FIXED_FREE, bearing_rigidity=4e8)
     found = inputs.inputs(dataclasses.replace(plain, installation=mounted, limits=Limits(static_safety=3.0)))
     assert found["installation"] == {
-        "unsupported_length": 1.2, "ends": "fixed-free", "shaft_density": 7850.0, "bearing_rigidity": 4e8,
-    }  # fmt: skip
+        "unsupported_length": 1.2,
+        "ends": "fixed-free",
+        "shaft_density": 7850.0,
+        "bearing_rigidity": 4e8,
+    }
     assert found["limits"]["static_safety"] == 3.0
     assert found["limits"]["buckling_safety"] == 2.0
 

@@ -113,9 +113,12 @@ def test_a_card_against_the_model():
     card = torque_card.read(EXAMPLE)
     for row, point in zip(before["rows"], card.points, strict=True):
         alone = card.case.model(
-            card.case.screw, card.case.lubricant, axial_load=0.0, screw_speed=point.screw_speed,
+            card.case.screw,
+            card.case.lubricant,
+            axial_load=0.0,
+            screw_speed=point.screw_speed,
             temperature=point.temperature,
-        )  # fmt: skip
+        )
         assert row["value"] == pytest.approx(float(alone.screw_torque), rel=1e-12)
         assert row["ratio"] == pytest.approx(row["value"] / point.torque)
         assert (row["low"], row["high"]) == pytest.approx((min(point.readings) - 4e-3, max(point.readings) + 4e-3))

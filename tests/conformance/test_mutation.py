@@ -49,8 +49,10 @@ def test_what_is_changed(changes, tmp_path, text, expected):
 def test_what_is_changed_in_a_script(changes, tmp_path):
     text = 'import * as a from "./a.js";\n// b && c\nexport function f(b) {\n  return b === 1 && "x && y" !== b;\n}\n'
     assert [one.key for one in found(changes, tmp_path, text, "part.js")] == [
-        "part.js f: === -> !==", "part.js f: && -> ||", "part.js f: !== -> ===",
-    ]  # fmt: skip
+        "part.js f: === -> !==",
+        "part.js f: && -> ||",
+        "part.js f: !== -> ===",
+    ]
 
 
 def test_every_change_of_a_file_has_a_name_of_its_own_and_is_python(changes):
@@ -71,10 +73,16 @@ def test_tests_of_a_statement_are_those_of_its_lines_and_all_that_share_a_fixtur
     assert (one.statement, one.line) == (1, 3)
     reached = mutate.Reached(
         {"part.py": {1: ["a.py::test_f"], 2: ["fixture f"], 5: ["b.py::test_of_another"]}},
-        {"a.py::test_f": 1.0, "fixture f": 4.0, "a.py::test_g": 0.5, "b.py::test_of_another": 3.0,
-         "b.py::test_of_a_constant": 0.1, "c.py::test_of_another_part": 0.1},
+        {
+            "a.py::test_f": 1.0,
+            "fixture f": 4.0,
+            "a.py::test_g": 0.5,
+            "b.py::test_of_another": 3.0,
+            "b.py::test_of_a_constant": 0.1,
+            "c.py::test_of_another_part": 0.1,
+        },
         {"fixture f": ["a.py::test_f", "a.py::test_g"]},
-    )  # fmt: skip
+    )
     assert reached.of(one) == (["a.py::test_g", "a.py::test_f"], 5.0)
     # of a line that the import runs, also those that run no line of the module; with its fixture test_g takes longer
     tests, seconds = reached.of(one._replace(statement=4, line=4))

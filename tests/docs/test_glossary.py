@@ -53,9 +53,16 @@ def known():
     answers = names_in(openapi.document(application()), set())
     laws = {law for slot in (*LAWS.values(), *LOSSES.values()) for law in slot}
     return {
-        *answers, *known_outputs(), *known_outputs(DoubleNut(preload=1000.0)), *MECHANISMS, *laws, *NUTS, *SHORT_NAMES,
-        *(row.name for row in CHECKS), STARVED,
-    }  # fmt: skip
+        *answers,
+        *known_outputs(),
+        *known_outputs(DoubleNut(preload=1000.0)),
+        *MECHANISMS,
+        *laws,
+        *NUTS,
+        *SHORT_NAMES,
+        *(row.name for row in CHECKS),
+        STARVED,
+    }
 
 
 def fields_in(section):

@@ -274,8 +274,12 @@ def test_the_example_passes_its_test_vector(ballscrew, example, tmp_path):
     assert results["valid_range"].keys() == {"axial_load", "screw_speed", "temperature"}
     folder = tmp_path / "made"
     assert {path.name for path in folder.iterdir()} == {
-        "ballscrew.c", "ballscrew.h", "main.c", "test_vector.csv", "README.txt",
-    }  # fmt: skip
+        "ballscrew.c",
+        "ballscrew.h",
+        "main.c",
+        "test_vector.csv",
+        "README.txt",
+    }
     command = [COMPILER, *STRICT, "-O1", "ballscrew.c", "main.c", "-o", "example", "-lm"]
     subprocess.run(command, cwd=folder, check=True)
     run = [str(folder / "example"), str(folder / "test_vector.csv")]

@@ -120,9 +120,15 @@ def test_an_fmu_decays_to_rest(handed_over, tmp_path, kind):
     names = [*rows, "screw_torque", "ideal_torque", "holding_torque", "friction_power", "drive_torque", "valid"]
     solver = {"solver": "Euler", "step_size": time[1]} if kind == "ModelExchange" else {}
     found = fmpy.simulate_fmu(
-        str(path), fmi_type=kind, input=signals, stop_time=1.0, output_interval=time[1], output=names,
-        start_values={"regularisation_speed": 0.0}, **solver,
-    )  # fmt: skip
+        str(path),
+        fmi_type=kind,
+        input=signals,
+        stop_time=1.0,
+        output_interval=time[1],
+        output=names,
+        start_values={"regularisation_speed": 0.0},
+        **solver,
+    )
     points = {**{one.name: np.full(len(found), one.value) for one in handed.inputs}, **{n: found[n] for n in rows}}
     assert np.min(points["screw_speed"]) < 1e-320
     compare_with_model(handed, {name: found[name] for name in names}, points)

@@ -103,8 +103,9 @@ def test_without_the_option_there_is_none(handed_over):
 def test_a_case_gives_its_operating_point(example):
     operation = case_file.load(example).operation
     assert options_of_case(case_file.load(example)) == {
-        "presliding_load": operation.axial_load, "presliding_speed": operation.screw_speed,
-    }  # fmt: skip
+        "presliding_load": operation.axial_load,
+        "presliding_speed": operation.screw_speed,
+    }
 
 
 @pytest.mark.parametrize(

@@ -82,8 +82,9 @@ def test_efficiency_and_holding_torque_follow_from_the_torque(of):
 
 
 def test_samples_stay_within_the_bounds_of_their_quantity(of):
-    found = of({"screw_conformity": Normal(0.502, 0.01), "ball_friction_coefficient": Normal(0.0, 0.1)},
-               keep_samples=True)  # fmt: skip
+    found = of(
+        {"screw_conformity": Normal(0.502, 0.01), "ball_friction_coefficient": Normal(0.0, 0.1)}, keep_samples=True
+    )
     assert found.samples["screw_conformity"].min() > 0.5
     assert found.samples["ball_friction_coefficient"].min() >= 0
 

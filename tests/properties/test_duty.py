@@ -155,9 +155,7 @@ def test_a_steady_fall_is_one():
     slow = [found for found in brake_of(of_case).conditions if 0 < found.steady_speed < math.inf]
     assert slow
     for found in slow:
-        motion = Segments(
-            segments=(Segment(duration=1.0, speed=-found.steady_speed, temperature=found.temperature),)
-        )  # fmt: skip
+        motion = Segments(segments=(Segment(duration=1.0, speed=-found.steady_speed, temperature=found.temperature),))
         falling = duty(of_case.driven.model, of_case.driven.screw, OIL, axis=light, motion=motion)
         assert falling.torque[1] == pytest.approx(0.0, abs=1e-5 * abs(found.load_torque))
 

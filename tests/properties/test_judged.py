@@ -38,8 +38,14 @@ SIZES = {"young_modulus": 2e11, "maximum_pressure": 4e9, "limits.shaft_stress": 
     name: size
     for size, names in {
         5e3: (
-            "axial_load", "half_load", "other_half_load", "largest_load", "largest_half_load", "preload",
-            "remaining_preload", "lift_off_load",
+            "axial_load",
+            "half_load",
+            "other_half_load",
+            "largest_load",
+            "largest_half_load",
+            "preload",
+            "remaining_preload",
+            "lift_off_load",
         ),
         3e4: ("dynamic_load_rating", "static_load_rating"),
         0.03: ("root_diameter", "pitch_circle_diameter", "power_imbalance"),
@@ -48,7 +54,7 @@ SIZES = {"young_modulus": 2e11, "maximum_pressure": 4e9, "limits.shaft_stress": 
         4.0: ("buckling_root", "whirling_root", "limits.static_safety", "limits.buckling_safety"),
     }.items()
     for name in names
-}  # fmt: skip
+}
 
 
 def random_values(seed=0):
@@ -288,16 +294,26 @@ def test_checks_of_a_screw_are_the_table_at_a_point():
         **{f"limits.{name}": value for name, value in vars(LIMITS).items()},
     }
     made = checks(
-        screw, axial_load=-5000.0, screw_speed=-100.0, dynamic_load_rating=5e4, static_load_rating=1.5e5,
-        maximum_pressure=2e9, root_diameter=0.034, installation=MOUNTED, limits=LIMITS,
-    )  # fmt: skip
+        screw,
+        axial_load=-5000.0,
+        screw_speed=-100.0,
+        dynamic_load_rating=5e4,
+        static_load_rating=1.5e5,
+        maximum_pressure=2e9,
+        root_diameter=0.034,
+        installation=MOUNTED,
+        limits=LIMITS,
+    )
     found = judged(values)
     assert len(made) == 8
     for check in made:
         row = found[f"check.{check.name}"]
         assert (check.value, check.limit, check.utilisation, check.holds) == (
-            row["value"], row["limit"], row["utilisation"], row["holds"],
-        )  # fmt: skip
+            row["value"],
+            row["limit"],
+            row["utilisation"],
+            row["holds"],
+        )
 
 
 def test_the_sign_of_a_speed_is_nothing_to_a_check():

@@ -116,9 +116,12 @@ def test_rigidities(ends, preload, outer):
         screw = dataclasses.replace(ROW.screw(nut=nut), **{name: values[name] for name in OF_NUT})
         mounted = Installation(unsupported_length=values["l"], ends=ends, bearing_rigidity=values["R_b"])
         found = rigidity_iso3408(
-            screw, axial_load=values["axial_load"], installation=mounted, accuracy_factor=values["f_a"],
+            screw,
+            axial_load=values["axial_load"],
+            installation=mounted,
+            accuracy_factor=values["f_a"],
             nut_outer_diameter=values.get("outer"),
-        )  # fmt: skip
+        )
         return {name: getattr(found, name) for name in names}
 
     compare(rigidities, points)

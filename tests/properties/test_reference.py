@@ -337,9 +337,14 @@ def test_quadrants(r):
 
 def test_a_fine_lead_with_much_friction_locks_itself(seed_oil):
     screw = bs.BallScrew(
-        pitch_circle_diameter=0.100, lead=0.005, ball_diameter=3e-3, loaded_balls=200,
-        contact_angle=math.pi / 4, screw_conformity=0.505, nut_conformity=0.505,
-    )  # fmt: skip
+        pitch_circle_diameter=0.100,
+        lead=0.005,
+        ball_diameter=3e-3,
+        loaded_balls=200,
+        contact_angle=math.pi / 4,
+        screw_conformity=0.505,
+        nut_conformity=0.505,
+    )
     rough = dataclasses.replace(reference, friction=constant_friction(1.0))
     locked, free = (model(screw, seed_oil, axial_load=20e3, screw_speed=0.0) for model in (rough, reference))
     assert locked.self_locking

@@ -254,10 +254,17 @@ INPUTS = ("load", "preload", "contact_angle", "ball_diameter")
 def outcome(kind, constant, load, preload, contact_angle, ball_diameter):
     """All that a rigid nut answers, by name."""
     screw = bs.BallScrew(
-        pitch_circle_diameter=0.040, lead=0.010, ball_diameter=ball_diameter, loaded_balls=56,
-        contact_angle=contact_angle, screw_conformity=0.515, nut_conformity=0.52,
-        ball_material=STEEL, screw_material=STEEL, nut_material=STEEL,
-    )  # fmt: skip
+        pitch_circle_diameter=0.040,
+        lead=0.010,
+        ball_diameter=ball_diameter,
+        loaded_balls=56,
+        contact_angle=contact_angle,
+        screw_conformity=0.515,
+        nut_conformity=0.52,
+        ball_material=STEEL,
+        screw_material=STEEL,
+        nut_material=STEEL,
+    )
     r = ball_loads(screw, nut_of(kind, preload), load, constant_contact_angle=constant)
     found = {f"{name} {i}": getattr(part, name) for i, part in enumerate(r.kinds) for name in OF_KIND}
     return found | {name: getattr(r, name) for name in OF_NUT}

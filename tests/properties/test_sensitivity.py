@@ -85,11 +85,17 @@ def test_where_little_varies_all_methods_are_the_tangent(output, seed_screw, see
     centre = {name: parts.get(name) or getattr(seed_screw, name) for name in NARROW}
     by_method = {
         method: sensitivity(
-            model, seed_screw, seed_oil, distributions={n: made(centre[n]) for n, made in NARROW.items()},
-            axial_load=4000.0, screw_speed=62.83, output=output, method=method,
+            model,
+            seed_screw,
+            seed_oil,
+            distributions={n: made(centre[n]) for n, made in NARROW.items()},
+            axial_load=4000.0,
+            screw_speed=62.83,
+            output=output,
+            method=method,
         )
         for method in ("sobol", "morris", "local")
-    }  # fmt: skip
+    }
     sobol, morris, local = by_method.values()
     assert sobol.deviation == pytest.approx(local.deviation, rel=0.01)
     assert sobol.mean == pytest.approx(local.mean, rel=1e-4)

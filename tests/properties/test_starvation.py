@@ -20,9 +20,14 @@ from ballscrew.physics.laws.inlet import Inlet
 
 MODEL = FrictionModel.reference()
 SCREW = bs.BallScrew(
-    pitch_circle_diameter=0.0414, lead=0.01, ball_diameter=0.00635, loaded_balls=75, contact_angle=np.pi / 4,
-    screw_conformity=0.54, nut_conformity=0.54,
-)  # fmt: skip
+    pitch_circle_diameter=0.0414,
+    lead=0.01,
+    ball_diameter=0.00635,
+    loaded_balls=75,
+    contact_angle=np.pi / 4,
+    screw_conformity=0.54,
+    nut_conformity=0.54,
+)
 CELSIUS = 273.15
 
 

@@ -67,6 +67,9 @@ def fan_of_program(start, structure, question, samples):
     """The band of the program over the speeds."""
     given = arguments_of(start, structure, question)
     return bands.band_along(
-        **given, along="screw_speed", points=np.array(question["speeds"]), samples=samples,
+        **given,
+        along="screw_speed",
+        points=np.array(question["speeds"]),
+        samples=samples,
         screw_speed=question["inputs"]["screw_speed"],
-    )  # fmt: skip
+    )

@@ -11,9 +11,15 @@ TRUTH = {"mass": 95.0, "offset": -3.2, "coulomb_force": 20.0, "viscous_coefficie
 
 #: A small screw with the lead of the EMPS benchmark; the rest is guessed.
 SCREW_OF = bs.BallScrew(
-    pitch_circle_diameter=12.6e-3, lead=2.5e-3, ball_diameter=1.588e-3, loaded_balls=70,
-    contact_angle=math.pi / 4, screw_conformity=0.53, nut_conformity=0.53, nut=bs.DoubleNut(preload=150.0),
-)  # fmt: skip
+    pitch_circle_diameter=12.6e-3,
+    lead=2.5e-3,
+    ball_diameter=1.588e-3,
+    loaded_balls=70,
+    contact_angle=math.pi / 4,
+    screw_conformity=0.53,
+    nut_conformity=0.53,
+    nut=bs.DoubleNut(preload=150.0),
+)
 OIL = bs.Lubricant(viscosity=0.05)
 MODEL = bs.FrictionModel.reference()
 

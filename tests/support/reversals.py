@@ -29,8 +29,13 @@ def closed_form(*, from_rest=False, lead=0.01, travel=None, steady=STEADY):
         shares[name] = np.where(angles > 0, risen, before)
     parts = {name: torque * shares[name] for name, torque in steady.items()}
     return Reversal(
-        screw_angle=angles, travel=angles * lead / (2 * math.pi), screw_torque=sum(parts.values()),
-        contributions=parts, steady_torque=sum(steady.values()), steady_contributions=steady,
-        displacement=tuple(1e-5 * share for name, share in shares.items() if name == "helix"), bristles_over_model=1.0,
+        screw_angle=angles,
+        travel=angles * lead / (2 * math.pi),
+        screw_torque=sum(parts.values()),
+        contributions=parts,
+        steady_torque=sum(steady.values()),
+        steady_contributions=steady,
+        displacement=tuple(1e-5 * share for name, share in shares.items() if name == "helix"),
+        bristles_over_model=1.0,
         from_rest=from_rest,
-    )  # fmt: skip
+    )

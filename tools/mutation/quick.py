@@ -186,8 +186,11 @@ def run(since: str, budget: float, list_only: bool) -> int:
     changed = changed_functions(lines)
     choice = chosen(read_map(), changed, tests, budget * WORKERS)
     print(f"{len(changed)} functions have changed since {since}, {len(tests)} files of tests")
-    print(f"{len(choice.tests)} chosen, {choice.seconds:.0f} s of processor; {choice.left} left out, "
-          f"{choice.seconds_left:.0f} s", flush=True)  # fmt: skip
+    print(
+        f"{len(choice.tests)} chosen, {choice.seconds:.0f} s of processor; {choice.left} left out, "
+        f"{choice.seconds_left:.0f} s",
+        flush=True,
+    )
     scripts = [file for file in lines if file.endswith((".js", ".css", ".html"))]
     if scripts:
         print("Scripts of the page are not in the map: make js, pytest tests/faces/web/test_page*.py", flush=True)

@@ -29,16 +29,21 @@ def started(folder: Path, include: str, arguments: Sequence[str], **environment:
     measure = [sys.executable, "-m", "coverage", "run", f"--rcfile={os.devnull}", f"--include={include}"]
     with (folder / "pytest.txt").open("wb") as output:
         return subprocess.Popen(
-            [*measure, "-m", "pytest", "-p", "contexts", *arguments], cwd=ROOT,
-            env={**os.environ, **noted, **environment}, stdout=output, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+            [*measure, "-m", "pytest", "-p", "contexts", *arguments],
+            cwd=ROOT,
+            env={**os.environ, **noted, **environment},
+            stdout=output,
+            stderr=subprocess.STDOUT,
+        )
 
 
 def executed(folder: Path) -> Iterator[tuple[str, str, Sequence[int]]]:
     """Files below ``src/ballscrew``, what was run there for (a test or a shared fixture), and lines."""
     database = sqlite3.connect(folder / "coverage")
-    query = ("select path, context, numbits from line_bits join file on file.id = file_id "
-             "join context on context.id = context_id where context != ''")  # fmt: skip
+    query = (
+        "select path, context, numbits from line_bits join file on file.id = file_id "
+        "join context on context.id = context_id where context != ''"
+    )
     for path, context, bits in database.execute(query):
         yield _named(path), context, numbits_to_nums(bits)
     for file in (folder / "commands").iterdir():

@@ -49,9 +49,11 @@ def main() -> int:
         print(f"release: {refusal}", file=sys.stderr)
         return 2
     for path, text in after.items():
-        sys.stdout.writelines(difflib.unified_diff(
-            before[path].splitlines(keepends=True), text.splitlines(keepends=True), path, path, n=1
-        ))  # fmt: skip
+        sys.stdout.writelines(
+            difflib.unified_diff(
+                before[path].splitlines(keepends=True), text.splitlines(keepends=True), path, path, n=1
+            )
+        )
     if problems:
         print(*(f"release: {problem}" for problem in problems), sep="\n", file=sys.stderr)
         return 2

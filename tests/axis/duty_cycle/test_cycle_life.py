@@ -92,9 +92,16 @@ def test_one_way_alone_and_no_rating_and_no_turn():
 def test_the_rule_of_catalogues_by_hand():
     """F P/2πη and the inertia of all; at rest the guides help to hold, and a brake leaves nothing to the motor."""
     axis = Axis(
-        mass=150.0, counterweight=30.0, inclination=math.radians(30), guide_friction_coefficient=0.05,
-        guide_seal_force=20.0, inertia=3e-3, bearing_torque=0.15, transmission_ratio=2.5, transmission_efficiency=0.95,
-    )  # fmt: skip
+        mass=150.0,
+        counterweight=30.0,
+        inclination=math.radians(30),
+        guide_friction_coefficient=0.05,
+        guide_seal_force=20.0,
+        inertia=3e-3,
+        bearing_torque=0.15,
+        transmission_ratio=2.5,
+        transmission_efficiency=0.95,
+    )
     ways = Segment(distance=0.3, speed=0.2, force=400.0), Segment(duration=1.0, force=100.0)
     motion = Segments(segments=(*ways, Segment(distance=-0.3, speed=0.2)), acceleration=2.0)
     g, eta = 9.80665, 0.85

@@ -133,9 +133,14 @@ MASS, ROTOR, ETA, RATIO, BELT, BEARINGS = 200.0, 2e-3, 0.9, 2.0, 0.96, 0.2
 @pytest.fixture(scope="module")
 def driven():
     axis = Axis(
-        mass=MASS, guide_friction_coefficient=0.01, guide_seal_force=30.0, inertia=ROTOR, bearing_torque=BEARINGS,
-        transmission_ratio=RATIO, transmission_efficiency=BELT,
-    )  # fmt: skip
+        mass=MASS,
+        guide_friction_coefficient=0.01,
+        guide_seal_force=30.0,
+        inertia=ROTOR,
+        bearing_torque=BEARINGS,
+        transmission_ratio=RATIO,
+        transmission_efficiency=BELT,
+    )
     return duty(ETA, SCREW, axis=axis, motion=CYCLE)
 
 
@@ -168,9 +173,13 @@ def test_a_motor_by_hand(driven):
 
     # the curve falls from 10 N m at half that speed to 3 N m at one and a half times it: 6.5 N m at it
     motor = Motor(
-        rated_torque=2.0, peak_torque=10.0, largest_speed=1.5 * fastest, torque_constant=0.8, resistance=1.5,
+        rated_torque=2.0,
+        peak_torque=10.0,
+        largest_speed=1.5 * fastest,
+        torque_constant=0.8,
+        resistance=1.5,
         curve=((0.5 * fastest, 10.0), (1.5 * fastest, 3.0)),
-    )  # fmt: skip
+    )
     assert motor.peak_at(np.array([0.0, 0.25, 1.0, -1.25, 1.6]) * fastest) == pytest.approx(
         [10.0, 10.0, 6.5, 4.75, 0.0]
     )

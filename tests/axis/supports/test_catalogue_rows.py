@@ -23,8 +23,14 @@ def test_support_units_of_thk513e(model, rating, permissible, rigidity):
 
 def test_seals_of_rollon2020():
     assert {name: row.seal_force for name, row in guide_rows().items()} == {
-        "MRS15": 0.15, "MRS20": 0.2, "MRS25": 0.35, "MRS30": 0.7, "MRS35": 0.8, "MRS45": 0.9, "MCS55": 1.0
-    }  # fmt: skip
+        "MRS15": 0.15,
+        "MRS20": 0.2,
+        "MRS25": 0.35,
+        "MRS30": 0.7,
+        "MRS35": 0.8,
+        "MRS45": 0.9,
+        "MCS55": 1.0,
+    }
     guide = guide_rows()["MRS25"].guide()
     assert (guide.friction_coefficient, guide.seal_force, guide.carriages) == (0.003, 0.35, 4)
 

@@ -35,9 +35,13 @@ def to_and_fro(rpm, stroke=0.6):
 def creeping():
     """One long move with all heat into the shaft, far from the ends, and its network in fine cells."""
     where = bs.Surroundings(
-        shaft_length=2.0, shaft_share=1.0, ball_conductance=1e-9, shaft_convection=60.0, first_position=0.4,
+        shaft_length=2.0,
+        shaft_share=1.0,
+        ball_conductance=1e-9,
+        shaft_convection=60.0,
+        first_position=0.4,
         shaft_to_bearing=0.0,
-    )  # fmt: skip
+    )
     slow = moved(Segment(duration=3000.0, speed=0.4e-3))
     network = network_of(slow, where)
     shaft = dataclasses.replace(network.shaft, cells=200)

@@ -23,9 +23,14 @@ FIRST, LAST, LENGTH = 0.3, 0.75, 1.2
 POWER = 400.0
 #: A hollow shaft whose heat goes everywhere: to the air, to the coolant, to the bearings, and to the nut.
 GIVEN = Surroundings(
-    ambient=AIR, nut_conductance=9.0, bearing_conductance=5.0, shaft_to_bearing=7.0, shaft_share=0.6, bore=0.012,
+    ambient=AIR,
+    nut_conductance=9.0,
+    bearing_conductance=5.0,
+    shaft_to_bearing=7.0,
+    shaft_share=0.6,
+    bore=0.012,
     coolant=COOLANT,
-)  # fmt: skip
+)
 BAR = Shaft(length=LENGTH, diameter=0.034, bore=0.012, convection=25.0, bore_convection=200.0)
 BALLS, BEARINGS = 12.0, (30.0, 10.0)
 CONSTANT = FrictionMap(np.linspace(258.15, 393.15, 5), np.zeros(1), np.full((5, 1), POWER))
@@ -35,9 +40,19 @@ def network(cells=60, friction=CONSTANT, given=GIVEN, **changed):
     shaft = dataclasses.replace(BAR, cells=cells)
     stroke = shaft.spread(np.array([(FIRST + LAST) / 2]), np.ones(1), LAST - FIRST)
     return Network(
-        shaft, given, stroke, BALLS, 4.0, BEARINGS, friction, preload_set=0.0, approach_set=1.0,
-        approach_per_kelvin=0.0, ends=(FIRST, LAST), **changed,
-    )  # fmt: skip
+        shaft,
+        given,
+        stroke,
+        BALLS,
+        4.0,
+        BEARINGS,
+        friction,
+        preload_set=0.0,
+        approach_set=1.0,
+        approach_per_kelvin=0.0,
+        ends=(FIRST, LAST),
+        **changed,
+    )
 
 
 def exact():
@@ -181,9 +196,14 @@ def by_hand(warm):
     parts, instants = [start[:, None]], (np.linspace(0, 3600.0, 7), np.linspace(0, 1800.0, 4))
     for works, at in zip((True, False), instants, strict=True):
         found = solve_ivp(
-            lambda _, y, works=works: rates(y, spread, works=works), (0.0, at[-1]), parts[-1][:, -1], "Radau",
-            t_eval=at[1:], rtol=1e-9, atol=1e-9,
-        )  # fmt: skip
+            lambda _, y, works=works: rates(y, spread, works=works),
+            (0.0, at[-1]),
+            parts[-1][:, -1],
+            "Radau",
+            t_eval=at[1:],
+            rtol=1e-9,
+            atol=1e-9,
+        )
         parts.append(found.y)
     return np.concatenate(parts, axis=1)
 

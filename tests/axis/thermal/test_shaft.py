@@ -102,9 +102,7 @@ def test_heat_into_the_end_of_a_long_bar():
         heat[0] = HEAT
         found = integrated(bar, np.zeros(cells), lambda _, heat=heat: heat, time)
         x, reach = bar.places, 2 * math.sqrt(diffusivity * time)
-        exact = flux / CONDUCTIVITY * (
-            reach / math.sqrt(math.pi) * np.exp(-((x / reach) ** 2)) - x * erfc(x / reach)
-        )  # fmt: skip
+        exact = flux / CONDUCTIVITY * (reach / math.sqrt(math.pi) * np.exp(-((x / reach) ** 2)) - x * erfc(x / reach))
         errors.append(float(np.max(np.abs(found - exact)) / np.max(exact)))
     assert errors[0] < 2e-3
     assert np.log2(errors[0] / errors[1]) > 1.8

@@ -117,14 +117,16 @@ def test_samples_side_by_side_are_transients_of_their_own(duty, central):
 def test_another_preload_is_that_of_another_nut(duty, central):
     set_to = 3000.0
     nut = bs.to_and_fro(
-        MODEL, dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=set_to)), OIL,
-        axial_load=0.0, screw_speed=100.0, stroke=0.5,
-    )  # fmt: skip
+        MODEL,
+        dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=set_to)),
+        OIL,
+        axial_load=0.0,
+        screw_speed=100.0,
+        stroke=0.5,
+    )
     where = dataclasses.replace(AIR, ball_conductance=4.0)
     own = bs.steady_heat(nut, where)
-    changed = equilibrium(
-        sampled(bs.steady_heat(duty, where).network, {}, preload=set_to, factor=None)
-    )  # fmt: skip
+    changed = equilibrium(sampled(bs.steady_heat(duty, where).network, {}, preload=set_to, factor=None))
     assert changed.preload == pytest.approx(own.preload, rel=2e-3)  # of the cold approach, Hertz without film
     assert changed.power == pytest.approx(own.power, rel=2e-3)
 
@@ -184,9 +186,15 @@ def test_uncertain_friction_widens_the_torque(duty):
 def test_friction_is_known_cold_and_as_warm_as_it_becomes_at_work():
     """With a coolant that warms the oil whatever the friction: the model itself, with the coefficient that is drawn."""
     heated = bs.Surroundings(
-        shaft_length=1.2, bore=0.02, coolant=330.0, coolant_convection=3000.0, ball_conductance=15.0, nut_mass=100.0,
-        nut_conductance=1.0, shaft_share=1.0,
-    )  # fmt: skip
+        shaft_length=1.2,
+        bore=0.02,
+        coolant=330.0,
+        coolant_convection=3000.0,
+        ball_conductance=15.0,
+        nut_mass=100.0,
+        nut_conductance=1.0,
+        shaft_share=1.0,
+    )
     single = dataclasses.replace(SCREW, nut=bs.SingleNut())
     ways = (
         bs.Segment(duration=0.4, speed=0.02, force=9000.0), bs.Segment(duration=2.1, speed=0.02, force=3000.0),
@@ -196,9 +204,14 @@ def test_friction_is_known_cold_and_as_warm_as_it_becomes_at_work():
     slow = bs.duty(MODEL, single, OIL, axis=bs.Axis(mass=0.0), motion=motion)
     drawn = 0.18
     found = warm_up_band(
-        slow, heated, samples=2, time=3600.0, cool_down=1800.0, outputs=5,
+        slow,
+        heated,
+        samples=2,
+        time=3600.0,
+        cool_down=1800.0,
+        outputs=5,
         distributions={"friction.boundary_friction_coefficient": bs.Uniform(drawn - 1e-9, drawn + 1e-9)},
-    )  # fmt: skip
+    )
     rougher = dataclasses.replace(
         MODEL, friction=dataclasses.replace(MODEL.friction, boundary_friction_coefficient=drawn)
     )
@@ -219,9 +232,10 @@ def test_friction_is_known_cold_and_as_warm_as_it_becomes_at_work():
 def test_nothing_that_is_changed_is_the_same_network(central):
     """Also of a hollow shaft through which nothing flows."""
     hollow = dataclasses.replace(
-        central.network, shaft=dataclasses.replace(central.network.shaft, bore=0.02),
+        central.network,
+        shaft=dataclasses.replace(central.network.shaft, bore=0.02),
         surroundings=dataclasses.replace(AIR, bore=0.02),
-    )  # fmt: skip
+    )
     for network in (central.network, hollow):
         same = sampled(network, {}, preload=None, factor=None)
         for name in ("losses", "outside", "conductances", "source", "constant", "capacity"):

@@ -48,8 +48,9 @@ def test_a_module_needs_a_memory_and_a_stack_and_nothing_else(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     found = json.loads(done.stdout)
     assert {(one["name"], one["kind"]) for one in found["imports"]} == {
-        ("__linear_memory", "memory"), ("__stack_pointer", "global"),
-    }  # fmt: skip
+        ("__linear_memory", "memory"),
+        ("__stack_pointer", "global"),
+    }
     assert [(one["name"], one["kind"]) for one in found["exports"]] == [("first", "function"), ("second", "function")]
     x = np.arange(-3.0, 4.0)
     with np.errstate(all="ignore"):

@@ -173,9 +173,12 @@ def test_little_work_is_left_to_the_model_until_it_adds_up():
 @pytest.mark.compiles
 def test_an_evaluator_is_compiled():
     evaluate = bs.evaluator(
-        OLARU, screw_with(NUTS["double"]), OIL, inputs=["axial_load", "screw_speed", "preload"],
+        OLARU,
+        screw_with(NUTS["double"]),
+        OIL,
+        inputs=["axial_load", "screw_speed", "preload"],
         outputs=["screw_torque", "valid"],
-    )  # fmt: skip
+    )
     assert evaluate.engine == "compiled"
     screw = screw_with(dataclasses.replace(NUTS["double"], preload=3000.0))
     expected = OLARU(screw, OIL, axial_load=LOADS, screw_speed=SPEEDS)

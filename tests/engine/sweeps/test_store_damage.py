@@ -425,8 +425,10 @@ def test_verify_tells_all_that_is_damaged_and_changes_nothing(complete):
     before = files(complete)
     found = bs.verify(str(complete))
     assert {(damage.path, damage.block) for damage in found.damaged} == {
-        (CHUNK, BLOCK), ("screw_torque/c/0/0/0", 0), ("viscosity/zarr.json", None),
-    }  # fmt: skip
+        (CHUNK, BLOCK),
+        ("screw_torque/c/0/0/0", 0),
+        ("viscosity/zarr.json", None),
+    }
     assert not found.holds
     assert files(complete) == before
 

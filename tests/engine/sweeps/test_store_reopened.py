@@ -247,10 +247,16 @@ def test_two_processes_do_not_write_into_one_store(swept, whole, tmp_path):
         host = socket.gethostname()
         with pytest.raises(bs.InputError, match=rf"is being written by process {process.pid} on {host} .*lock"):
             bs.sweep(
-                MODEL, SCREW, OIL, to=path, block_size=20_000, outputs=["screw_torque", "efficiency", "valid"],
-                axial_load=np.linspace(10, 4000, 100), screw_speed=np.linspace(1, 100, 200),
+                MODEL,
+                SCREW,
+                OIL,
+                to=path,
+                block_size=20_000,
+                outputs=["screw_torque", "efficiency", "valid"],
+                axial_load=np.linspace(10, 4000, 100),
+                screw_speed=np.linspace(1, 100, 200),
                 viscosity=np.linspace(0.05, 0.5, 100),
-            )  # fmt: skip
+            )
         assert process.poll() is None
     finally:
         process.kill()

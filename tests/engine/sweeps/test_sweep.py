@@ -396,9 +396,14 @@ def test_every_output_is_described(both, name):
 
 def test_attributes(model, seed_screw, seed_oil):
     ds = bs.sweep(
-        model, seed_screw, seed_oil, axial_load=[1.0], screw_speed=[1.0], viscosity=0.2,
+        model,
+        seed_screw,
+        seed_oil,
+        axial_load=[1.0],
+        screw_speed=[1.0],
+        viscosity=0.2,
         **{"friction.decay": [1.42, 2.32]},
-    )  # fmt: skip
+    )
     assert ds["screw_torque"].attrs == {
         "long_name": "friction torque on the screw",
         "units": "N m",
@@ -469,9 +474,15 @@ def test_a_sweep_can_be_stopped_from_its_progress(model, seed_screw, seed_oil, t
 
     with pytest.raises(KeyboardInterrupt):
         bs.sweep(
-            model, seed_screw, seed_oil, axial_load=np.linspace(1, 2, 100), screw_speed=1.0, block_size=10,
-            threads=threads, done=stop,
-        )  # fmt: skip
+            model,
+            seed_screw,
+            seed_oil,
+            axial_load=np.linspace(1, 2, 100),
+            screw_speed=1.0,
+            block_size=10,
+            threads=threads,
+            done=stop,
+        )
 
 
 # -- bad input ------------------------------------------------------------------------------------

@@ -133,8 +133,10 @@ def test_a_load_that_is_uncertain_is_drawn(of_seed):
 def test_kept_samples_are_those_of_the_model(of_seed, seed_screw, seed_oil):
     found = of_seed(
         distributions={"viscosity": LogNormal(0.1, 1.3), "screw_speed": Uniform(40.0, 80.0)},
-        outputs=["screw_torque", "friction_power", "back_driving_efficiency"], samples=16, keep_samples=True,
-    )  # fmt: skip
+        outputs=["screw_torque", "friction_power", "back_driving_efficiency"],
+        samples=16,
+        keep_samples=True,
+    )
     drawn = found.samples
     assert len(drawn["viscosity"]) == found.count == 16
     oil = dataclasses.replace(seed_oil, viscosity=drawn["viscosity"])
@@ -146,14 +148,25 @@ def test_kept_samples_are_those_of_the_model(of_seed, seed_screw, seed_oil):
 def test_self_locking_share():
     """The holding torque is M_Sa − M_S: it locks where the friction drawn exceeds the torque of the load."""
     screw = bs.BallScrew(
-        pitch_circle_diameter=0.04, lead=0.0035, ball_diameter=3.175e-3, loaded_balls=56, contact_angle=math.pi / 4,
-        screw_conformity=0.515, nut_conformity=0.515,
-    )  # fmt: skip
+        pitch_circle_diameter=0.04,
+        lead=0.0035,
+        ball_diameter=3.175e-3,
+        loaded_balls=56,
+        contact_angle=math.pi / 4,
+        screw_conformity=0.515,
+        nut_conformity=0.515,
+    )
     model = dataclasses.replace(bs.FrictionModel.reference(), ball_force=ProportionalBallForce(0.02))
     found = band(
-        model, screw, bs.Lubricant(viscosity=0.1), distributions={"ball_force.share_of_load": Uniform(0.0, 0.4)},
-        outputs=["holding_torque", "screw_torque"], samples=512, keep_samples=True, **POINT,
-    )  # fmt: skip
+        model,
+        screw,
+        bs.Lubricant(viscosity=0.1),
+        distributions={"ball_force.share_of_load": Uniform(0.0, 0.4)},
+        outputs=["holding_torque", "screw_torque"],
+        samples=512,
+        keep_samples=True,
+        **POINT,
+    )
     assert 0.1 < found.self_locking_share < 0.9
     assert found.self_locking_share == np.mean(found.samples["holding_torque"] <= 0)
     ideal = found.samples["holding_torque"] + found.samples["screw_torque"]
@@ -179,8 +192,9 @@ def test_laws_are_drawn_evenly_and_multiply(of_seed, seed_screw, seed_oil):
     # a Sobol' sequence of 2^10 points has exactly a quarter in each quarter of a square
     assert np.array_equal(counts, [256] * 4)
     assert {slot: [law.shift for law in laws] for slot, laws in found.alternatives.items()} == {
-        "rolling": [pytest.approx(math.log(one))], "friction": [pytest.approx(math.log(other))],
-    }  # fmt: skip
+        "rolling": [pytest.approx(math.log(one))],
+        "friction": [pytest.approx(math.log(other))],
+    }
     assert found["screw_torque"].share_of_parameters == 0
 
 
@@ -316,9 +330,15 @@ def test_a_whole_nut(seed_screw, seed_oil):
     screw = dataclasses.replace(seed_screw, nut=bs.DoubleNut(preload=1000.0))
     model = bs.FrictionModel.reference()
     found = band(
-        model, screw, seed_oil, distributions={"viscosity": LogNormal(0.1, 1.3)}, samples=8,
-        keep_samples=True, alternatives=[candidate(model, "rolling", houpert_rolling)], **POINT,
-    )  # fmt: skip
+        model,
+        screw,
+        seed_oil,
+        distributions={"viscosity": LogNormal(0.1, 1.3)},
+        samples=8,
+        keep_samples=True,
+        alternatives=[candidate(model, "rolling", houpert_rolling)],
+        **POINT,
+    )
     ratio = math.exp(found.alternatives["rolling"][0].shift)
     for viscosity, torque in zip(found.samples["viscosity"], found.samples["screw_torque"], strict=True):
         oil = dataclasses.replace(seed_oil, viscosity=viscosity)

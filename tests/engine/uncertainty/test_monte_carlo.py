@@ -47,9 +47,13 @@ def test_mean_and_deviation_of_a_linear_output(sampled, seed_screw, engine):
     """The contact load is F/(z sin α); the load is uniform, with deviation (high − low)/√12."""
     n = 300_000
     ds = sampled(
-        distributions={"axial_load": Uniform(1000.0, 4000.0)}, screw_speed=60.0, samples=n, seed=1, engine=engine,
+        distributions={"axial_load": Uniform(1000.0, 4000.0)},
+        screw_speed=60.0,
+        samples=n,
+        seed=1,
+        engine=engine,
         outputs=["contact_load"],
-    )  # fmt: skip
+    )
     unit = 1 / (seed_screw.loaded_balls * math.sin(seed_screw.contact_angle))
     deviation = 3000 / math.sqrt(12) * unit
     assert abs(ds.contact_load_mean - 2500 * unit) < ERRORS * deviation / math.sqrt(n)
@@ -64,9 +68,14 @@ def test_quantiles_of_a_log_normal_output(sampled, seed_screw, engine):
     """The contact load follows the load: median · factor^Φ⁻¹(q), with standard error σ √(q(1 − q)/n)/φ."""
     n, levels = 300_000, np.array([0.001, 0.025, 0.5, 0.9, 0.999])
     ds = sampled(
-        distributions={"axial_load": LogNormal(2000.0, 1.2)}, screw_speed=60.0, samples=n, seed=2, engine=engine,
-        outputs=["contact_load"], quantiles=levels,
-    )  # fmt: skip
+        distributions={"axial_load": LogNormal(2000.0, 1.2)},
+        screw_speed=60.0,
+        samples=n,
+        seed=2,
+        engine=engine,
+        outputs=["contact_load"],
+        quantiles=levels,
+    )
     z = stats.norm.ppf(levels)
     expected = 2000 * 1.2**z / (seed_screw.loaded_balls * math.sin(seed_screw.contact_angle))
     error = math.log(1.2) * np.sqrt(levels * (1 - levels) / n) / stats.norm.pdf(z)
@@ -78,9 +87,13 @@ def test_the_share_of_invalid_inputs(sampled, engine):
     """A groove with a conformity below one half is no groove: Φ(−1) of the samples."""
     n = 200_000
     ds = sampled(
-        distributions={"screw_conformity": Normal(0.52, 0.02)}, axial_load=4000.0, screw_speed=60.0, samples=n,
-        outputs=["validity_inputs", "screw_torque"], engine=engine,
-    )  # fmt: skip
+        distributions={"screw_conformity": Normal(0.52, 0.02)},
+        axial_load=4000.0,
+        screw_speed=60.0,
+        samples=n,
+        outputs=["validity_inputs", "screw_torque"],
+        engine=engine,
+    )
     share = stats.norm.cdf(-1.0)
     error = math.sqrt(share * (1 - share) / n)
     assert abs(1 - ds.validity_inputs_share - share) < ERRORS * error
@@ -237,9 +250,13 @@ def test_a_law_that_cannot_be_recorded_has_no_kernel(sampled):
 def test_outputs_of_every_kind(sampled, engine):
     """Truth alone, what is the same everywhere, and coefficients of laws as inputs."""
     ds = sampled(
-        distributions={"friction.boundary_friction_coefficient": Uniform(0.1, 0.2)}, axial_load=4000.0,
-        screw_speed=60.0, samples=10_000, outputs=["contact_load", "valid"], engine=engine,
-    )  # fmt: skip
+        distributions={"friction.boundary_friction_coefficient": Uniform(0.1, 0.2)},
+        axial_load=4000.0,
+        screw_speed=60.0,
+        samples=10_000,
+        outputs=["contact_load", "valid"],
+        engine=engine,
+    )
     assert ds.contact_load_standard_deviation == 0
     assert ds.contact_load_mean == ds.contact_load_minimum == ds.contact_load_maximum
     assert np.all(ds.contact_load_quantiles == ds.contact_load_mean)
@@ -312,6 +329,4 @@ def test_bad_input(sampled, options, message):
 def test_fields_that_are_arrays_already(seed_screw, seed_oil):
     screw = dataclasses.replace(seed_screw, lead=np.array([0.005, 0.010]))
     with pytest.raises(bs.InputError, match=r"screw\.lead: is an array · give one number"):
-        monte_carlo(
-            bs.FrictionModel.olaru2005(), screw, seed_oil, distributions=LOAD, samples=10, screw_speed=1.0
-        )  # fmt: skip
+        monte_carlo(bs.FrictionModel.olaru2005(), screw, seed_oil, distributions=LOAD, samples=10, screw_speed=1.0)

@@ -31,11 +31,13 @@ def test_a_swing_is_the_model_at_both_ends_of_one_input():
     ends = [0.12 + 0.02 * number for number in (-1.959963985, 1.959963985)]
     swing = found["friction.boundary_friction_coefficient"]
     expected = [
-        torque(model=dataclasses.replace(
-            MODEL, friction=dataclasses.replace(MODEL.friction, boundary_friction_coefficient=end)
-        ))
+        torque(
+            model=dataclasses.replace(
+                MODEL, friction=dataclasses.replace(MODEL.friction, boundary_friction_coefficient=end)
+            )
+        )
         for end in ends
-    ]  # fmt: skip
+    ]
     assert [swing.at_lower, swing.at_upper] == pytest.approx(expected, rel=1e-9)
     swing = found["axial_load"]
     expected = [torque(axial_load=5000.0 + 100 * number) for number in (-1.959963985, 1.959963985)]

@@ -249,8 +249,10 @@ def test_sizes_of_friction_torques_and_loads_are_taken_as_positive_and_that_is_s
     load, speed = data["axial_load"], data["screw_speed"]
     for nut, share in ((SMALL.nut, 0.01), (dataclasses.replace(SMALL.nut, bodies=None), None)):
         screw = dataclasses.replace(SMALL, nut=nut)
-        friction = {sign: MODELS["reference"](screw, OIL, axial_load=sign * load, screw_speed=speed).screw_torque
-                    for sign in (1, -1)}  # fmt: skip
+        friction = {
+            sign: MODELS["reference"](screw, OIL, axial_load=sign * load, screw_speed=speed).screw_torque
+            for sign in (1, -1)
+        }
         columns = {"axial_load": load, "screw_speed": np.abs(speed), "torque": friction[1]}
         found = fit(MODELS["reference"], screw, OIL, columns, [FRICTION], kind="friction", holdout=0.0)
         said = [record for record in found.warning_records if record.id == "fit.load_sign"]

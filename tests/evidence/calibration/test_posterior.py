@@ -66,9 +66,7 @@ def test_the_same_seed_gives_the_same_samples(found):
 @pytest.mark.slow
 def test_samples_keep_within_the_bounds(found):
     low = found.estimates[FRICTION].value
-    bounded = fit(
-        PAPER, SCREW, OIL, found.rows.log, [FRICTION], holdout=0, bounds={FRICTION: (low, 0.3)}
-    )  # fmt: skip
+    bounded = fit(PAPER, SCREW, OIL, found.rows.log, [FRICTION], holdout=0, bounds={FRICTION: (low, 0.3)})
     drawn = bounded.posterior(steps=200).samples[FRICTION]
     assert np.all(drawn >= low - 1e-12)
     assert drawn.std() > 0

@@ -55,9 +55,16 @@ def problem(data, asked=(FRICTION,), scatter=0.01, friction=None, bounds=None):
     torques = np.stack([np.zeros(rows), np.full(rows, 0.4) if friction is None else friction])
     slopes = np.stack([np.zeros((rows, 1)), np.ones((rows, 1))])
     return Problem.of(
-        Configuration(MODEL, SCREW, OIL), Response(torques, slopes), {name: name for name in asked}, data,
-        CONVENTIONS[0], scatter, torques, slopes, bounds or {},
-    )  # fmt: skip
+        Configuration(MODEL, SCREW, OIL),
+        Response(torques, slopes),
+        {name: name for name in asked},
+        data,
+        CONVENTIONS[0],
+        scatter,
+        torques,
+        slopes,
+        bounds or {},
+    )
 
 
 def test_what_is_fitted_beside_the_numbers_that_are_free():
@@ -272,12 +279,16 @@ def test_a_number_is_told_on_one_side_where_the_torques_go_flat(torque, one_side
     solution = Solution(np.ones(1), np.ones(400), noise, np.ones((400, 1)), Noise(1.0, 0.0), converged=True)
     made = types.SimpleNamespace(
         on=lambda chosen: lambda x: (np.full(np.count_nonzero(chosen), float(torque(x[0]))), None),
-        parameters=[None], response=types.SimpleNamespace(names=["x"]), bounds=(np.array([-9.0]), np.array([9.0])),
-    )  # fmt: skip
+        parameters=[None],
+        response=types.SimpleNamespace(names=["x"]),
+        bounds=(np.array([-9.0]), np.array([9.0])),
+    )
     fitted = types.SimpleNamespace(
-        problem=made, solution=solution, held_out=np.zeros(400, dtype=bool),
+        problem=made,
+        solution=solution,
+        held_out=np.zeros(400, dtype=bool),
         log=types.SimpleNamespace(torque=1.0 - noise),
-    )  # fmt: skip
+    )
     uncertainty = types.SimpleNamespace(covariance=np.array([[1 / 400]]))
     # without a log and a fit around it
     assert _one_sided(fitted, uncertainty).tolist() == [one_sided]
@@ -289,8 +300,10 @@ def test_tests_are_thought_of_by_ratios_and_temperatures_by_differences():
     """25 speeds by 15 loads by 5 temperatures; one where a range is a number, and a thousandth for a least of zero."""
     found = _grid({"axial_load": (10.0, 1000.0), "screw_speed": (1.0, 100.0), "temperature": (300.0, 340.0)})
     assert {name: np.unique(values).size for name, values in found.items()} == {
-        "axial_load": 15, "screw_speed": 25, "temperature": 5,
-    }  # fmt: skip
+        "axial_load": 15,
+        "screw_speed": 25,
+        "temperature": 5,
+    }
     assert all(values.size == 15 * 25 * 5 for values in found.values())
     assert np.unique(found["temperature"]) == pytest.approx([300, 310, 320, 330, 340])
     for name, ratio in (("axial_load", 100 ** (1 / 14)), ("screw_speed", 100 ** (1 / 24))):

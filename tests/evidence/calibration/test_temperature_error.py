@@ -125,9 +125,13 @@ def test_the_posterior_of_a_service_has_it_once():
 def test_the_interval_has_the_degrees_of_freedom_of_the_part_that_was_estimated(found):
     """Satterthwaite: (s² + t²)² / (s⁴/ν) for a variance s² of ν degrees and a known one t²."""
     one = dataclasses.replace(
-        found.estimates[FRICTION], value=0.1, std=0.01, temperature_share=0.75, degrees_of_freedom=3,
+        found.estimates[FRICTION],
+        value=0.1,
+        std=0.01,
+        temperature_share=0.75,
+        degrees_of_freedom=3,
         bounds=(-np.inf, np.inf),
-    )  # fmt: skip
+    )
     s2, t2 = 0.25 * 0.01**2, 0.75 * 0.01**2
     degrees = (s2 + t2) ** 2 / (s2**2 / 3)
     assert np.diff(one.interval())[0] == pytest.approx(2 * 0.01 * student.ppf(0.975, degrees))
@@ -137,9 +141,17 @@ def test_samples_of_the_posterior_have_it_too():
     """Near its top, ``exp(−½ (k Σ ρ + z²))`` is normal with the inverse of ``k Σ ψ′ g gᵀ``, 1 added for z."""
     pytest.importorskip("emcee", reason="emcee is not installed (the extra calibrate)")
     few = log(
-        truth(), rows=80, oil=VG_100, temperatures=(313, 314), noise=2e-4, outliers=0.0, drift=0.0, both=False,
-        loads=(1000, 1100), speeds=(300, 320),
-    )  # fmt: skip
+        truth(),
+        rows=80,
+        oil=VG_100,
+        temperatures=(313, 314),
+        noise=2e-4,
+        outliers=0.0,
+        drift=0.0,
+        both=False,
+        loads=(1000, 1100),
+        speeds=(300, 320),
+    )
     del few["time"]
     found = fit(PAPER, SCREW, VG_100, few, [FRICTION], holdout=0.0, temperature_error=30.0)
     samples, solution = found.posterior(200, seed=1), found.solution

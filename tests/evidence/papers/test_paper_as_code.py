@@ -28,11 +28,23 @@ def case(seed):
     sigma = draw.uniform(0.02e-6, 0.5e-6, 3)
     f = draw.uniform(0.51, 0.56, 2)
     return {
-        "d_m": d_m, "d_w": d_w, "p": d_w * draw.uniform(1.3, 6), "z": z, "alpha": draw.uniform(0.6, 0.95),
-        "f_s": f[0], "f_n": f[1], "sigma_b": sigma[0], "sigma_s": sigma[1], "sigma_n": sigma[2],
-        "E": MODULUS / (1 - 0.3**2), "eta_0": 10 ** draw.uniform(-2, 0), "alpha_p": draw.uniform(1e-8, 3e-8),
-        "F_B": 1 / z, "F": z * d_w**2 * 10 ** draw.uniform(4.5, 7), "n": 10 ** draw.uniform(0, 3.4),
-    }  # fmt: skip
+        "d_m": d_m,
+        "d_w": d_w,
+        "p": d_w * draw.uniform(1.3, 6),
+        "z": z,
+        "alpha": draw.uniform(0.6, 0.95),
+        "f_s": f[0],
+        "f_n": f[1],
+        "sigma_b": sigma[0],
+        "sigma_s": sigma[1],
+        "sigma_n": sigma[2],
+        "E": MODULUS / (1 - 0.3**2),
+        "eta_0": 10 ** draw.uniform(-2, 0),
+        "alpha_p": draw.uniform(1e-8, 3e-8),
+        "F_B": 1 / z,
+        "F": z * d_w**2 * 10 ** draw.uniform(4.5, 7),
+        "n": 10 ** draw.uniform(0, 3.4),
+    }
 
 
 def of_package(model, c):

@@ -145,8 +145,11 @@ def test_logs_of_several_speeds_tell_causes_apart():
     found = condition(logs(PAPER, 1, left), screw_speed=None)
     assert all(one.preload_low < share < one.preload_high for one, share in zip(found.states, left, strict=True))
     assert {record.subject for record in found.verdict_records if record.id == "condition.part"} == {
-        "nut.preload", "boundary_friction_coefficient", "constant_torque", "temperature",
-    }  # fmt: skip
+        "nut.preload",
+        "boundary_friction_coefficient",
+        "constant_torque",
+        "temperature",
+    }
     for state, share in zip(found.states, left, strict=True):
         assert state.parts["nut.preload"].low < share < state.parts["nut.preload"].high
         assert state.parts["constant_torque"].low < 0 < state.parts["constant_torque"].high

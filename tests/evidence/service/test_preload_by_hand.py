@@ -32,9 +32,15 @@ def test_a_torque_without_load(logged):
     """The logarithm of the preload is normal: that of oil and reading over the power of the preload."""
     reading, speed, warmer = 0.25, 2 * SPEED, 5.0 if logged else 0.0
     found = bs.preload_of_torque(
-        MODEL, SCREW, OIL, torque=reading, torque_deviation=0.02 * reading, screw_speed=speed,
-        temperature=WARM + warmer if logged else None, distributions={FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.001)},
-    )  # fmt: skip
+        MODEL,
+        SCREW,
+        OIL,
+        torque=reading,
+        torque_deviation=0.02 * reading,
+        screw_speed=speed,
+        temperature=WARM + warmer if logged else None,
+        distributions={FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.001)},
+    )
     middle = math.log(PRELOAD) + math.log(reading / torque_of(1.0, speed, warmer)) / P
     parts = {"temperature": PER_KELVIN * (2 if logged else 10) / Z, "reading": 0.02, FRICTION: S * 0.005}
     whole = math.hypot(*parts.values()) / P

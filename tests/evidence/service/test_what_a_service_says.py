@@ -43,9 +43,11 @@ def test_numbers_that_logs_ask_for():
 
     assert said(20.0, 0.999 * limit, [2.0, -2.0]) == []
     assert said(19.9, 1.001 * limit, [1.9, -2.1, 2.1]) == [
-        ("service.not_sampled", "preload"), ("service.misfit", "worn.torque"),
-        ("service.beyond_known", "number 1"), ("service.beyond_known", "number 2"),
-    ]  # fmt: skip
+        ("service.not_sampled", "preload"),
+        ("service.misfit", "worn.torque"),
+        ("service.beyond_known", "number 1"),
+        ("service.beyond_known", "number 2"),
+    ]
     assert said(math.nan, 0.0, []) == [("service.not_sampled", "preload")]
 
 
@@ -99,9 +101,14 @@ def test_a_verdict_takes_a_probability_of_95_percent(lost, verdict):
     median = math.log(0.9) - deviation * norm.ppf(lost)
     one = PreloadEstimate(logarithm=Mixture.of(0.0, 0.1))
     found = PreloadChange(
-        new=one, worn=one, logarithm=Mixture.of(median, deviation), ratio_shares={}, scores={}, tolerance=0.1,
+        new=one,
+        worn=one,
+        logarithm=Mixture.of(median, deviation),
+        ratio_shares={},
+        scores={},
+        tolerance=0.1,
         alternatives=[],
-    )  # fmt: skip
+    )
     assert found.verdict == verdict
     assert found.probability_of_loss == pytest.approx(lost, nan_ok=True)
 

@@ -146,11 +146,12 @@ def test_two_per_cent_rows_are_in_no_mean(found):
     assert len(entry.upper_limits) == 18
     assert all(point.name.endswith("at 5 %") for point in entry.points)
     without = [
-        point for values in compute.shipped_rows(entry.data)
+        point
+        for values in compute.shipped_rows(entry.data)
         for point in entry.data.evaluate(
             entry.model, {k: v for k, v in values.items() if "2pct" not in k}, Conditions()
         )
-    ]  # fmt: skip
+    ]
     assert [point.ratio for point in without] == [point.ratio for point in entry.points]
     assert not any(point.upper_limits for point in without)
 
@@ -209,8 +210,11 @@ def test_alternatives_stand_with_and_without_wipers(found):
     """The torque of two wipers is the difference, once by hand: 0.25 N m at 32 mm."""
     entry = found["xjtu", None]
     assert {name: len(group.points) for name, group in entry.groups.items()} == {
-        "double": 12, "double, two wipers": 12, "single": 12, "single, two wipers": 12,
-    }  # fmt: skip
+        "double": 12,
+        "double, two wipers": 12,
+        "single": 12,
+        "single, two wipers": 12,
+    }
     values = {point.name: point.value for point in entry.points}
     name = "32 mm, double, VG 100 at 25 °C"
     assert values[f"{name}, wipers"] == pytest.approx(values[name] + 0.25, rel=1e-12)

@@ -145,10 +145,14 @@ def test_linuxcnc_gives_the_curve(handed):
         file = Path(folder) / "try.hal"
         file.write_text("\n".join([*lines, "start", *ask, ""]))
         done = subprocess.run(
-            [halrun, "-f", str(file)], capture_output=True, text=True, timeout=60, cwd=folder,
+            [halrun, "-f", str(file)],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            cwd=folder,
             env={**os.environ, "HOME": folder},
             **({"user": 65534, "group": 65534, "extra_groups": []} if as_root else {}),
-        )  # fmt: skip
+        )
     found = np.array([float(line) for line in done.stdout.splitlines() if re.fullmatch(r"-?[\d.e+-]+", line)])
     curve = friction_curve(subject, 8)
     turning = np.array(speeds) * 1e-3 * 2 * np.pi / subject.subject.screw.lead

@@ -49,8 +49,11 @@ def test_octave_reads_and_interpolates_what_python_does(handed, exported, tmp_pa
     )
     done = subprocess.run(
         [octave, "--quiet", "--no-gui", "--norc", "--eval", script],
-        cwd=tmp_path, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     found = np.array([line.split() for line in done.stdout.splitlines()], dtype=float)
     wanted = friction_table(handed).at({"axial_load": load, "screw_speed": speed})
     for column, name in enumerate(["screw_torque", "drive_torque", "valid"]):

@@ -84,9 +84,10 @@ def test_places_that_are_asked_for(ballscrew):
 
 
 def test_without_a_motion_it_is_the_operating_point():
-    plain = load(ROOT / "examples" / "catalogue_screw.toml", [
-        'installation.unsupported_length="1.1 m"', 'installation.ends="fixed-fixed"',
-    ])  # fmt: skip
+    plain = load(
+        ROOT / "examples" / "catalogue_screw.toml",
+        ['installation.unsupported_length="1.1 m"', 'installation.ends="fixed-fixed"'],
+    )
     found = chain_of(plain)
     assert not found.travel_is_known
     assert found.travel == pytest.approx((0.055, 1.045))

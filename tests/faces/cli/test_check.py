@@ -108,9 +108,14 @@ def test_every_row_shipped(row):
 
 def test_what_is_given_counts():
     found = checked(
-        operation__axial_load="10 kN", operation__screw_speed="1000 rpm", nut__type="single", lubricant__grade="VG68",
-        lubricant__temperature="50 degC", installation__unsupported_length="4 m", installation__ends="fixed-free",
-    )  # fmt: skip
+        operation__axial_load="10 kN",
+        operation__screw_speed="1000 rpm",
+        nut__type="single",
+        lubricant__grade="VG68",
+        lubricant__temperature="50 degC",
+        installation__unsupported_length="4 m",
+        installation__ends="fixed-free",
+    )
     case = found.case
     assert (case.operation.axial_load, case.operation.screw_speed) == (10_000, pytest.approx(1000 * RPM))
     assert isinstance(found.nut.nut, bs.SingleNut)

@@ -61,8 +61,10 @@ def test_json_is_the_python_result(name, model, example, ballscrew):
     assert document["units"]["screw"]["film_parameter"] == "1"
     assert document["inputs"]["screw"]["lead"] == 0.005
     assert document["provenance"] == {
-        "version": bs.__version__, "model": name, "references": document["provenance"]["references"],
-    }  # fmt: skip
+        "version": bs.__version__,
+        "model": name,
+        "references": document["provenance"]["references"],
+    }
     assert "Olaru2005" in document["provenance"]["references"]
     assert [warning["id"] for warning in document["warnings"]] == ["model.power_balance"] * ("olaru2005" in name)
 
@@ -193,9 +195,17 @@ def test_efficiency_table_on_the_terminal(example, ballscrew):
 
 def test_one_row_a_point(example, ballscrew):
     process = ballscrew(
-        "sweep", example, "--vary", "axial_load=1,4 kN", "--vary", "friction.boundary_friction_coefficient=0.1,0.2",
-        "--output", "screw_torque", "--output", "valid",
-    )  # fmt: skip
+        "sweep",
+        example,
+        "--vary",
+        "axial_load=1,4 kN",
+        "--vary",
+        "friction.boundary_friction_coefficient=0.1,0.2",
+        "--output",
+        "screw_torque",
+        "--output",
+        "valid",
+    )
     rows = list(csv.reader(io.StringIO(process.stdout)))
     assert rows[0] == ["axial load [N]", "friction boundary friction coefficient", "screw torque [N m]", "valid"]
     assert len(rows) == 5

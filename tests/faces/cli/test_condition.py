@@ -44,8 +44,10 @@ def test_a_table(ballscrew, tmp_path):
     assert results["trend"]["low"] < results["trend"]["slope"] < results["trend"]["high"] < 0
     assert results["states"][0]["limit"] is None
     assert [one["id"] for one in found["verdicts"]][:3] == [
-        "condition.alarm", "condition.preload_left", "condition.trend",
-    ]  # fmt: skip
+        "condition.alarm",
+        "condition.preload_left",
+        "condition.trend",
+    ]
     assert found["verdicts"][0]["holds"] is False
     identities = [(record["id"], record["subject"]) for record in (*found["warnings"], *found["verdicts"])]
     assert len(set(identities)) == len(identities)
@@ -95,8 +97,11 @@ def test_logs(ballscrew, tmp_path):
     results = found["results"]
     assert [one["label"] for one in results["states"]] == ["day0.csv", "day1.csv", "day2.csv", "nut_worn.csv"]
     assert set(results["states"][-1]["parts"]) == {
-        "nut.preload", "boundary_friction_coefficient", "constant_torque", "temperature",
-    }  # fmt: skip
+        "nut.preload",
+        "boundary_friction_coefficient",
+        "constant_torque",
+        "temperature",
+    }
     assert results["states"][-1]["preload"]["high"] < 1
     assert len(found["provenance"]["logs"]) == 4
 

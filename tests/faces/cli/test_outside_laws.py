@@ -119,9 +119,8 @@ def test_an_error_in_a_law_is_one_line(tmp_path, ballscrew, example):
         "def rolling(conditions):\n    raise KeyError('a')\n", encoding="utf-8"
     )
     process = ballscrew(
-        "run", example, "--allow-code", "--model", "reference",
-        "--set", "model.rolling=law_with_an_error:rolling",
-    )  # fmt: skip
+        "run", example, "--allow-code", "--model", "reference", "--set", "model.rolling=law_with_an_error:rolling"
+    )
     assert process.returncode == 2
     (line,) = process.stderr.splitlines()
     assert line.startswith("model.rolling: law_with_an_error:rolling raised KeyError: 'a'")

@@ -33,8 +33,10 @@ def test_two_logs(ballscrew, tmp_path):
         assert results[label]["low"] < results[label]["preload"] < results[label]["high"]
         assert results[label]["rows"] > 100
     assert {one["name"] for one in results["alternatives"]} == {
-        "boundary_friction_coefficient", "temperature", "constant_torque",
-    }  # fmt: skip
+        "boundary_friction_coefficient",
+        "temperature",
+        "constant_torque",
+    }
     assert [one["log"] for one in found["provenance"]["logs"]] == ["nut_new.csv", "nut_worn.csv"]
     first = found["verdicts"][0]
     assert first["id"] == "service.preload_left"

@@ -103,8 +103,12 @@ def test_files_have_the_ends_beside_the_values(tmp_path, ballscrew):
     wanted = ("--vary", "axial_load=1000, 2000 N", "--output", "screw_torque", "--samples", "64")
     rows = list(csv.reader(io.StringIO(ballscrew("sweep", DRIVE, *wanted).stdout)))
     assert rows[0] == [
-        "axial load [N]", "screw torque [N m]", "screw torque low [N m]", "screw torque high [N m]", "valid",
-    ]  # fmt: skip
+        "axial load [N]",
+        "screw torque [N m]",
+        "screw torque low [N m]",
+        "screw torque high [N m]",
+        "valid",
+    ]
     path = tmp_path / "band.nc"
     assert ballscrew("sweep", DRIVE, *wanted, "--to", path).returncode == 0
     with xr.open_dataset(path, engine="h5netcdf") as stored:

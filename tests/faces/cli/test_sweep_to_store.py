@@ -99,8 +99,11 @@ def test_an_interrupt_ends_with_words_and_130(example, tmp_path):
     assert stderr.endswith(" blocks are finished · run the same again to go on\n")
     assert len(stderr.splitlines()) == 1
     assert sorted(path.name for path in (tmp_path / "map.zarr" / ".ballscrew").iterdir()) == [
-        "blocks", "layout.json", "plan.json", "zarr.json",
-    ]  # fmt: skip
+        "blocks",
+        "layout.json",
+        "plan.json",
+        "zarr.json",
+    ]
 
 
 def test_a_full_disk_ends_with_words_and_1(example, ballscrew, tmp_path):

@@ -78,8 +78,11 @@ def test_example_in_all_forms(ballscrew, tmp_path):
     assert results["time"][last] == 4 * 3600
     assert results["nut_temperature"][last] == pytest.approx(end["nut_temperature"], abs=1e-3)
     assert {path.name for path in (tmp_path / "all").iterdir()} == {
-        "warm_up.csv", "warm_up.xlsx", "compensation.csv", "warm_up.png",
-    }  # fmt: skip
+        "warm_up.csv",
+        "warm_up.xlsx",
+        "compensation.csv",
+        "warm_up.png",
+    }
     with (tmp_path / "all" / "compensation.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert list(rows[0]) == ["place [mm]", "growth [um]"]
@@ -110,8 +113,10 @@ def test_band_in_all_forms(ballscrew, tmp_path):
     assert band["time"] == results["time"]
     inputs = band["inputs"]
     assert inputs["surroundings.ball_conductance"] == {
-        "distribution": "4 W/K ± 1 W/K", "source": "given", "given": True,
-    }  # fmt: skip
+        "distribution": "4 W/K ± 1 W/K",
+        "source": "given",
+        "given": True,
+    }
     assert "surroundings.shaft_share" not in inputs  # exact
     assert not inputs["surroundings.nut_conductance"]["given"]
     shown = drawn(tmp_path / "band.svg").text
@@ -414,9 +419,7 @@ def test_fit_with_self_heating(ballscrew, tmp_path, case):
     (tmp_path / "log.csv").write_text("\n".join(lines), "utf-8")
     (tmp_path / "case.toml").write_text(POINT, "utf-8")
     common = ["fit", "log.csv", "--case", "case.toml", "--holdout", "0", "--json"]
-    found, cold = (
-        json.loads(ballscrew(*common, *options).stdout) for options in (["--self-heating"], [])
-    )  # fmt: skip
+    found, cold = (json.loads(ballscrew(*common, *options).stdout) for options in (["--self-heating"], []))
     estimate = found["estimates"]["boundary_friction_coefficient"]
     assert estimate["value"] == pytest.approx(truth, rel=0.01)
     assert abs(cold["estimates"]["boundary_friction_coefficient"]["value"] / truth - 1) > 0.02

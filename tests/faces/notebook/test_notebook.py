@@ -77,9 +77,14 @@ def test_a_sensitivity_is_its_inputs_the_largest_first(method):
         "friction.decay": bs.Normal(1.4, 0.01),
     }
     found = bs.sensitivity(
-        MODEL, SCREW, OIL, distributions=uncertain | many, method=method, samples=16 if method != "local" else None,
+        MODEL,
+        SCREW,
+        OIL,
+        distributions=uncertain | many,
+        method=method,
+        samples=16 if method != "local" else None,
         screw_speed=60.0,
-    )  # fmt: skip
+    )
     heading, first, *_, last = repr(found).splitlines()
     assert heading.startswith(f"Sensitivity of screw_torque, {method}: mean ")
     assert first.startswith(f"{found.inputs[0]}: ")

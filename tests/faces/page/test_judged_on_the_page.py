@@ -112,10 +112,20 @@ def values_at(subject, points):
         return subject.at({**own, **changes})
 
     found, rest = at(), at(screw_speed=np.zeros(POINTS))
-    values = {name: getattr(found, name) for name in (
-        "axial_load", "screw_speed", "screw_torque", "drive_torque", "holding_torque", "valid", "power_imbalance",
-        "nut_torque", "flooded_torque",
-    )}  # fmt: skip
+    values = {
+        name: getattr(found, name)
+        for name in (
+            "axial_load",
+            "screw_speed",
+            "screw_torque",
+            "drive_torque",
+            "holding_torque",
+            "valid",
+            "power_imbalance",
+            "nut_torque",
+            "flooded_torque",
+        )
+    }
     values |= {"at_rest.holding_torque": rest.holding_torque, "at_rest.valid": rest.valid}
     values |= {f"validity_{reason}": mask for reason, mask in found.validity.items()}
     if subject.nut.is_row:
@@ -204,10 +214,18 @@ def test_the_cases_say_much(found):
     """Nothing above is true for want of records."""
     ids = {one["id"] for each in found.values() for what in ("verdicts", "warnings") for one in each["records"][what]}
     assert ids >= {
-        "lubricant.starved", "verdict.no_load", "verdict.quadrant", "verdict.back_driving", "verdict.self_locking",
-        "verdict.back_driving.at_rest", "verdict.self_locking.at_rest", "verdict.rule_of_maker", "verdict.preload_lost",
-        "validity.contact_pressure", "run.preload_above_rating",
-    }  # fmt: skip
+        "lubricant.starved",
+        "verdict.no_load",
+        "verdict.quadrant",
+        "verdict.back_driving",
+        "verdict.self_locking",
+        "verdict.back_driving.at_rest",
+        "verdict.self_locking.at_rest",
+        "verdict.rule_of_maker",
+        "verdict.preload_lost",
+        "validity.contact_pressure",
+        "run.preload_above_rating",
+    }
     holds = {(one["id"], one["holds"]) for each in found.values() for one in each["records"]["checks"]}
     assert {("check.buckling", True), ("check.buckling", None), ("check.running_time", False)} <= holds
 

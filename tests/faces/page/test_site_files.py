@@ -82,8 +82,9 @@ def test_an_earlier_page_goes_and_other_files_stay(files, tmp_path):
     assert written[-1] == tmp_path / "index.html"
     assert (old.exists(), own.exists()) == (False, True)
     assert {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()} == {
-        *files, "kernels/notes.txt",
-    }  # fmt: skip
+        *files,
+        "kernels/notes.txt",
+    }
 
 
 def test_a_page_of_somebody_else_stays(files, tmp_path):

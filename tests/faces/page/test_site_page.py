@@ -215,10 +215,15 @@ def ends_of(tables, count):
     """The ends of the torque of a case with so many samples, computed by the program without other laws."""
     case = case_of(tables)
     found = bands.band(
-        case.model, case.screw, case.lubricant, samples=count, alternatives=of_makers(case),
+        case.model,
+        case.screw,
+        case.lubricant,
+        samples=count,
+        alternatives=of_makers(case),
         distributions={name: one.distribution for name, one in uncertain_inputs.all_of(case).items()},
-        axial_load=float(case.operation.axial_load), screw_speed=float(case.operation.screw_speed),
-    )  # fmt: skip
+        axial_load=float(case.operation.axial_load),
+        screw_speed=float(case.operation.screw_speed),
+    )
     return found["screw_torque"].both
 
 

@@ -34,11 +34,12 @@ SEARCHES = {
 def answers():
     starts = {
         name: {
-            "source": row.source, "kind": row.nut,
+            "source": row.source,
+            "kind": row.nut,
             "sizes": [float(f"{1e3 * size:.12g}") for size in (row.nominal_diameter, row.lead, row.ball_diameter)],
         }
         for name, row in ((row.name, row) for row in printed_rows())
-    }  # fmt: skip
+    }
     asked = {"searches": [*SEARCHES], "starts": starts}
     command = [node(), "--input-type=module", "-e", SCRIPT, "--", str(PAGE), json.dumps(asked)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60)

@@ -79,10 +79,13 @@ def test_no_text_of_a_report_has_an_exponent_but_what_people_wrote():
     svg = '<svg d="M1e-05 2"><text>4e+08</text></svg>'
     found = as_data(
         Report(
-            "1e+08", ["2e+08"], [Section("3e+08", [Paragraph("4e+08"), Picture(svg, "5e+08", "6e+08")])], "x",
+            "1e+08",
+            ["2e+08"],
+            [Section("3e+08", [Paragraph("4e+08"), Picture(svg, "5e+08", "6e+08")])],
+            "x",
             heading=["Project: 7e+08"],
         )
-    )  # fmt: skip
+    )
     (section,) = found["sections"]
     text, picture = section["blocks"]
     assert [

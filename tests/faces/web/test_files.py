@@ -24,8 +24,11 @@ def test_what_is_saved_opens_again(server, paper, elastic):
         assert saved.status_code == 200, saved.text
         found = opened(server, f"two.{kind}", saved.text).json()
         assert found == {
-            "kind": "project", "comments": 0, "notes": [], "designs": [{"aside": {}, **one} for one in designs],
-        }  # fmt: skip
+            "kind": "project",
+            "comments": 0,
+            "notes": [],
+            "designs": [{"aside": {}, **one} for one in designs],
+        }
     saved = server.post("toml", {"case": {**paper, "aside": {"shop": {"bin": 7}}}})
     assert tomllib.loads(saved.text)["aside"] == {"shop": {"bin": 7}}
     (found,) = opened(server, "case.toml", saved.text).json()["designs"]
@@ -117,9 +120,13 @@ def test_what_json_has_not_is_kept_as_text(server, paper):
     assert found.status_code == 200, found.text
     (design,) = found.json()["designs"]
     assert design["aside"]["shop"] == {
-        "bought": "2026-01-01", "at": "2026-01-01T07:00:00+00:00", "price": "nan", "most": [1.5, "-inf"],
-        "number": "9007199254740993", "deep": {"a": {"b": {"c": 1}}},
-    }  # fmt: skip
+        "bought": "2026-01-01",
+        "at": "2026-01-01T07:00:00+00:00",
+        "price": "nan",
+        "most": [1.5, "-inf"],
+        "number": "9007199254740993",
+        "deep": {"a": {"b": {"c": 1}}},
+    }
     names = ("bought", "at", "price", "most", "number")
     assert [note.partition(" is kept as text")[0] for note in found.json()["notes"]] == [f"shop.{n}" for n in names]
     again = server.post("project", {"designs": [design]})

@@ -67,8 +67,9 @@ def test_a_problem_has_its_line_and_the_others_are_answered(server, paper):
     faulty = {**paper, "operation": {"axial_load": "1 kg", "screw_speed": "1 rpm"}}
     lines = lines_of(server, {"case": paper, "beside": [faulty, paper]})
     assert [(line["question"], line["place"]) for line in lines if "answer" in line and line["place"]] == [
-        ("run", 2), ("check", 2),
-    ]  # fmt: skip
+        ("run", 2),
+        ("check", 2),
+    ]
     (refused,) = (line for line in lines if "problem" in line)
     assert (refused["question"], refused["place"]) == ("run", 1)
     assert refused["problem"] == server.post("run", {"case": faulty}).json()

@@ -90,8 +90,11 @@ def test_columns(post, folders):
     body = {"case": tables_of("rig.toml"), "log": sent("x.csv", text)}
     found = post("log", body)
     assert [(one["heading"], one["taken_for"]) for one in found["columns"]] == [
-        ("M_x", ""), ("v_ist", "feed_rate"), ("zeit", "time"), ("Bemerkung", ""),
-    ]  # fmt: skip
+        ("M_x", ""),
+        ("v_ist", "feed_rate"),
+        ("zeit", "time"),
+        ("Bemerkung", ""),
+    ]
     assert found["columns"][0]["cells"] == ["1,2", "1,3"]
     # without a load it is a log of no load
     assert found["missing"] == ["torque"]

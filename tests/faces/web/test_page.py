@@ -331,8 +331,10 @@ def test_three_and_four_designs(visit, computed):
     here.page.locator("#design-B").click()
     here.settle().page.locator("#remove").click()
     assert compared(here.settle()) == {
-        "Design A": table["Design A"], "Design B": table["Design C"], "Design C": table["Design D"]
-    }  # fmt: skip
+        "Design A": table["Design A"],
+        "Design B": table["Design C"],
+        "Design C": table["Design D"],
+    }
     for _ in range(2):
         here.page.locator("#remove").click()
         here.settle()

@@ -39,9 +39,13 @@ def test_a_feed_axis_from_its_sketch_to_its_numbers(visit, server):
     assert shares.locator("tbody tr").count() == len(results["position"])
     # each part shows its input, and what the case lacks is dashed
     assert {name: part(here, name) for name in ("table", "fixed", "ends", "shaft", "motor", "mount")} == {
-        "table": "500 kg", "fixed": "800 N/µm", "ends": "fixed-supported", "shaft": "1100 mm", "motor": "not given",
+        "table": "500 kg",
+        "fixed": "800 N/µm",
+        "ends": "fixed-supported",
+        "shaft": "1100 mm",
+        "motor": "not given",
         "mount": "not given",
-    }  # fmt: skip
+    }
     absent = page.eval_on_selector_all("#axis svg .absent", "all => all.map((one) => one.dataset.part).sort()")
     assert absent == ["counterweight", "inclination", "motor", "mount"]
     buttons = page.eval_on_selector_all("#axis button.absent", "all => all.map((one) => one.dataset.part).sort()")

@@ -81,8 +81,11 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     one, _, two, *_ = motion["segment"]
     assert motion["acceleration"] == "3 m/s^2"
     assert [one["distance"], one["speed"], two["distance"], two["speed"]] == [
-        "300 mm", "15 m/min", "-500 mm", "12 m/min"
-    ]  # fmt: skip
+        "300 mm",
+        "15 m/min",
+        "-500 mm",
+        "12 m/min",
+    ]
     shows(here, "duty", server.post("duty", {"case": case_of(here)}).json()["sheet"])
     page.locator("#remove").click()
     here.settle()

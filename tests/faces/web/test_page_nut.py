@@ -54,9 +54,7 @@ def test_the_balls_of_a_rigid_double_nut_have_a_dot_for_each_half(visit):
 
 
 def test_a_double_nut_between_elastic_bodies(visit, server):
-    here = visit().open(
-        f"#A={DOUBLE}&A.operation.axial_load=2+kN&A.nut.spacing=9+mm&A.bodies.swelling=true&band=0"
-    )  # fmt: skip
+    here = visit().open(f"#A={DOUBLE}&A.operation.axial_load=2+kN&A.nut.spacing=9+mm&A.bodies.swelling=true&band=0")
     case = case_of(here)
     loads = server.post("run", {"case": case}).json()["loads"]
     expected = np.maximum(loads["balls"]["forward_load"], loads["balls"]["backward_load"])
@@ -91,7 +89,7 @@ def test_a_double_nut_between_elastic_bodies(visit, server):
 def test_what_is_alike_and_what_is_assumed_is_said(visit, server):
     here = visit(width=390, height=844, scheme="dark").open(
         "#A=paper&A.nut.type=double&A.nut.preload=2+kN&A.operation.axial_load=-1+kN&band=0"
-    )  # fmt: skip
+    )
     loads = server.post("run", {"case": case_of(here)}).json()["loads"]["balls"]
     greater = np.maximum(loads["forward_load"], loads["backward_load"])
     found = [load for *_, load in balls(here)]

@@ -60,8 +60,7 @@ def test_few_numbers_become_a_design(visit):
 def test_numbers_that_do_not_go_together_are_named(visit):
     here = visit().open("#A=paper")
     here.expected = ("status of 422",)
-    page = opened(here, nominal_diameter="40", lead="10", turns="5", ball_diameter="6",
-                  dynamic_load_rating="5.27")  # fmt: skip
+    page = opened(here, nominal_diameter="40", lead="10", turns="5", ball_diameter="6", dynamic_load_rating="5.27")
     page.wait_for_selector("#own-nut .warning >> text=check its unit")
     page.fill("#own-nut-ball_diameter", "")
     page.fill("#own-nut-starts", "1000000")

@@ -141,9 +141,13 @@ def test_charts(page):
     page.wait_for_selector("#made-chart-torque-over-length tbody tr")  # it opens a little later
     headings = page.locator("#made-chart-torque-over-length thead th").all_inner_texts()
     assert headings == [
-        "length (mm)", "model (N\u00b7m)", "tests (N\u00b7m)", "ratio", "band lower end (N\u00b7m)",
+        "length (mm)",
+        "model (N\u00b7m)",
+        "tests (N\u00b7m)",
+        "ratio",
+        "band lower end (N\u00b7m)",
         "band upper end (N\u00b7m)",
-    ]  # fmt: skip
+    ]
     assert page.locator("#made-chart-torque-over-length tbody tr").count() == 2
 
 
@@ -198,16 +202,15 @@ def test_what_is_unknown_is_not_drawn_as_nothing(page):
         "({ drawn: { figure: { marks } } }) => marks.filter(({ kind }) => kind === 'bar')"
         ".map(({ width, base, words }) => [width, base, words])"
     )
-    assert parts == [
-        [2, 20, "<i>warmer</i>: 2 \u00b0C: taken"], [None, 20 - 293.15, "<i>warmer</i>: \u2013 \u00b0C"]
-    ]  # fmt: skip
+    assert parts == [[2, 20, "<i>warmer</i>: 2 \u00b0C: taken"], [None, 20 - 293.15, "<i>warmer</i>: \u2013 \u00b0C"]]
     assert bars.evaluate("({ drawn }) => drawn.figure.y.names[0].words") == "<i>warmer</i>"
     page.locator("#made-chart-unknown summary").click()
     page.wait_for_selector("#made-chart-unknown tbody tr")
     rows = page.locator("#made-chart-unknown tbody tr")
     assert [row.locator("th, td").all_inner_texts() for row in rows.all()] == [
-        ["<i>warmer</i>", "2", "-272.15", "", "taken"], ["<i>warmer</i>", "", "", "", ""]
-    ]  # fmt: skip
+        ["<i>warmer</i>", "2", "-272.15", "", "taken"],
+        ["<i>warmer</i>", "", "", "", ""],
+    ]
 
 
 def test_columns_are_saved_and_units_change(page):

@@ -372,8 +372,10 @@ def test_any_fault_refuses_everything(table):
     found = table(MIXED)
     lines = lines_of(rows.made, found, lambda row: row)
     assert [line.partition(":")[0] for line in lines] == [
-        'screws.csv row 3, column "Ph [mm]"', 'screws.csv row 4, column "Ph [mm]"', 'screws.csv row 4, column "i"',
-    ]  # fmt: skip
+        'screws.csv row 3, column "Ph [mm]"',
+        'screws.csv row 4, column "Ph [mm]"',
+        'screws.csv row 4, column "i"',
+    ]
 
 
 def test_keep_going_loses_nothing_silently(table):

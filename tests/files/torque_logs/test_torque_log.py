@@ -112,8 +112,9 @@ def test_names_nearly_right():
     data = simple()
     data["axial_loads"] = data.pop("axial_load")
     assert lines_of(TorqueLog.of, data) == ['data: has no column "axial_load" · did you mean "axial_loads"?']
-    assert lines_of(TorqueLog.of, 5) == ["data: is no log (int) · give a mapping of arrays, a pandas DataFrame or an "
-                                         "xarray Dataset"]  # fmt: skip
+    assert lines_of(TorqueLog.of, 5) == [
+        "data: is no log (int) · give a mapping of arrays, a pandas DataFrame or an xarray Dataset"
+    ]
     assert TorqueLog.of(simple(colour=np.ones(12))).notes == ("columns not used: colour",)
 
 

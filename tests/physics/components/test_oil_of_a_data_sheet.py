@@ -107,9 +107,12 @@ def test_values_that_contradict():
 def test_quantities_of_pint():
     unit = pint.UnitRegistry()
     oil = bs.Lubricant.from_data_sheet(
-        unit.Quantity(100.0, "mm^2/s"), unit.Quantity(11.1, "mm^2/s"), unit.Quantity(0.88, "g/cm^3"),
-        unit.Quantity(40.0, "degC"), pour_point=unit.Quantity(-15.0, "degC"),
-    )  # fmt: skip
+        unit.Quantity(100.0, "mm^2/s"),
+        unit.Quantity(11.1, "mm^2/s"),
+        unit.Quantity(0.88, "g/cm^3"),
+        unit.Quantity(40.0, "degC"),
+        pour_point=unit.Quantity(-15.0, "degC"),
+    )
     assert_same_oil(oil, OIL)
     assert oil.sheet.pour_point == pytest.approx(258.15)
 

@@ -120,9 +120,15 @@ def test_a_sweep_gives_what_the_model_gives():
     gaps, speeds = [0.0, 0.05, 0.5], [0.0, 5.0, 60.0]
     for engine in ("numpy", "compiled"):
         found = bs.sweep(
-            model, DOUBLE, OIL, axial_load=300.0, screw_speed=speeds, outputs=["screw_torque"], engine=engine,
+            model,
+            DOUBLE,
+            OIL,
+            axial_load=300.0,
+            screw_speed=speeds,
+            outputs=["screw_torque"],
+            engine=engine,
             **{"ball_force.gap": gaps},
-        )["screw_torque"]  # fmt: skip
+        )["screw_torque"]
         for gap in gaps:
             law = dataclasses.replace(model, ball_force=ChainBallForce(gap=gap))
             expected = law(DOUBLE, OIL, axial_load=300.0, screw_speed=np.array(speeds)).screw_torque
@@ -154,9 +160,10 @@ def test_a_coefficient_below_its_bound_is_refused(name):
 def test_gap_deviation_and_walls_are_uncertain():
     model = dataclasses.replace(REFERENCE, ball_force=ChainBallForce())
     usual = {name: distribution for name, (distribution, _) in default_distributions(model, DOUBLE, OIL).items()}
-    ends = {name: [float(usual[f"ball_force.{name}"].quantile(q)) for q in (0.025, 0.975)] for name in (
-        "gap", "groove_deviation", "wall_factor",
-    )}  # fmt: skip
+    ends = {
+        name: [float(usual[f"ball_force.{name}"].quantile(q)) for q in (0.025, 0.975)]
+        for name in ("gap", "groove_deviation", "wall_factor")
+    }
     assert ends["gap"] == pytest.approx([0.05 + 0.025, 1.05 - 0.025], abs=1e-3)
     assert ends["groove_deviation"] == pytest.approx([0.5e-6, 2e-6], rel=1e-6)
     assert ends["wall_factor"] == pytest.approx([10 / 3, 30], rel=1e-6)

@@ -24,9 +24,14 @@ SPEED = 2 * math.pi * 100 / 60
 def screw_of(d_m, lead, d_w, balls, conformity=0.54):
     """A screw by its sizes in millimetres."""
     return bs.BallScrew(
-        pitch_circle_diameter=d_m * 1e-3, lead=lead * 1e-3, ball_diameter=d_w * 1e-3, contact_angle=math.radians(45),
-        loaded_balls=balls, screw_conformity=conformity, nut_conformity=conformity,
-    )  # fmt: skip
+        pitch_circle_diameter=d_m * 1e-3,
+        lead=lead * 1e-3,
+        ball_diameter=d_w * 1e-3,
+        contact_angle=math.radians(45),
+        loaded_balls=balls,
+        screw_conformity=conformity,
+        nut_conformity=conformity,
+    )
 
 
 #: Screws from 6×1 to 125×20, and the load of a ball, N, at some 5 % of the dynamic rating.
@@ -161,9 +166,14 @@ def test_a_set_preload_is_swept_as_it_is_evaluated():
         set_at_rest = dataclasses.replace(screw, nut=bs.DoubleNut(preload=500.0, bodies=bodies, set_at_rest=True))
         direct = REFERENCE(set_at_rest, OIL, axial_load=200.0, screw_speed=SPEED).screw_torque
         swept = bs.sweep(
-            REFERENCE, set_at_rest, OIL,
-            outputs=["screw_torque"], preload=[400.0, 500.0], axial_load=[200.0], screw_speed=[SPEED],
-        )  # fmt: skip
+            REFERENCE,
+            set_at_rest,
+            OIL,
+            outputs=["screw_torque"],
+            preload=[400.0, 500.0],
+            axial_load=[200.0],
+            screw_speed=[SPEED],
+        )
         assert float(swept.screw_torque[1, 0, 0]) == pytest.approx(float(direct), rel=1e-9)
         assert float(swept.screw_torque[0, 0, 0]) < float(direct)
 
@@ -239,11 +249,15 @@ def test_a_dataset_says_that_the_preload_was_set_at_rest():
     screw, _ = SCREWS["20x5"]
     of = {
         rest: bs.sweep(
-            REFERENCE, dataclasses.replace(screw, nut=bs.DoubleNut(preload=500.0, set_at_rest=rest)), OIL,
-            outputs=["screw_torque"], axial_load=[200.0], screw_speed=[SPEED],
+            REFERENCE,
+            dataclasses.replace(screw, nut=bs.DoubleNut(preload=500.0, set_at_rest=rest)),
+            OIL,
+            outputs=["screw_torque"],
+            axial_load=[200.0],
+            screw_speed=[SPEED],
         )
         for rest in (True, False)
-    }  # fmt: skip
+    }
     assert of[True].attrs["nut_set_at_rest"] == "true"
     assert "nut_set_at_rest" not in of[False].attrs
 
@@ -275,9 +289,9 @@ def test_the_spin_of_leaning_normals_is_that_of_bodies_in_space(way):
         """Slip along the path, race against ball, at screw and nut."""
         speed, rotation = np.array([unknowns[0], 0, 0]), np.array([0, unknowns[1], 0])
         of_screw = way * np.array([L, 0, 0]) + np.cross(axis, rho * at_screw)
-        return np.array([
-            (of_screw - speed - np.cross(rotation, rho * at_screw))[0], (-speed - np.cross(rotation, rho * at_nut))[0]
-        ])  # fmt: skip
+        return np.array(
+            [(of_screw - speed - np.cross(rotation, rho * at_screw))[0], (-speed - np.cross(rotation, rho * at_nut))[0]]
+        )
 
     slope = np.column_stack([sliding([1, 0]) - sliding([0, 0]), sliding([0, 1]) - sliding([0, 0])])
     speed, rolling = np.linalg.solve(slope, -sliding([0, 0]))

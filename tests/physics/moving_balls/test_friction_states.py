@@ -42,9 +42,13 @@ def curve_of(torque_at, coulomb_torque, *, from_rest=False, at_once=0.0):
     """A curve over 60° of a closed form of the angle."""
     angles = np.concatenate([[0.0], np.geomspace(math.radians(1e-4), math.radians(60), 400)])
     return WindingUp(
-        screw_angle=angles, travel=angles * PER_RADIAN, torque=torque_at(angles), coulomb_torque=coulomb_torque,
-        at_once=at_once, from_rest=from_rest,
-    )  # fmt: skip
+        screw_angle=angles,
+        travel=angles * PER_RADIAN,
+        torque=torque_at(angles),
+        coulomb_torque=coulomb_torque,
+        at_once=at_once,
+        from_rest=from_rest,
+    )
 
 
 def of_elements(elements, *, from_rest=False, at_once=0.0):
@@ -181,9 +185,11 @@ def test_tracking_is_free_of_the_way_that_it_is_sampled():
     curve = of_elements(THREE)
     dense = np.unique(np.concatenate([curve.screw_angle, np.linspace(0, math.radians(0.05), 4000)]))
     again = WindingUp(
-        screw_angle=dense, travel=dense * PER_RADIAN, torque=np.interp(dense, curve.screw_angle, curve.torque),
+        screw_angle=dense,
+        travel=dense * PER_RADIAN,
+        torque=np.interp(dense, curve.screw_angle, curve.torque),
         coulomb_torque=curve.coulomb_torque,
-    )  # fmt: skip
+    )
     one, other = (fit_dahl(each).model.presliding_stiffness for each in (curve, again))
     assert other == pytest.approx(one, rel=1e-4)
 
@@ -261,9 +267,7 @@ def area(angles, torques):
     return float(np.sum((torques[1:] + torques[:-1]) / 2 * np.diff(angles)))
 
 
-element = st.builds(
-    SlipElement, stiffness=st.floats(0.1, 100.0), slip_torque=st.floats(1e-3, 1.0)
-)  # fmt: skip
+element = st.builds(SlipElement, stiffness=st.floats(0.1, 100.0), slip_torque=st.floats(1e-3, 1.0))
 elements_of = st.lists(element, min_size=1, max_size=4)
 turns = st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=12)
 

@@ -243,16 +243,28 @@ def test_a_root_that_is_no_bottom_of_a_groove_is_named():
 
 
 def test_own_nut_in_python():
-    found = bs.own_nut(nominal_diameter=0.04, lead=0.01, turns=6, ball_diameter=0.006, dynamic_load_rating=72100,
-                       nut="double", preload_share=0.07)  # fmt: skip
+    found = bs.own_nut(
+        nominal_diameter=0.04,
+        lead=0.01,
+        turns=6,
+        ball_diameter=0.006,
+        dynamic_load_rating=72100,
+        nut="double",
+        preload_share=0.07,
+    )
     listed = catalogue()["rexroth-40x10x6-6-double"]
     screw = found.row.screw()
     assert (screw.loaded_balls, screw.ball_diameter) == (listed.loaded_balls, 0.006)
     assert screw.nut.preload == pytest.approx(0.07 * 72100)
     assert {one.name for one in found.estimates} == {
-        "ball_circle", "conformity", "contact_angle", "loaded_balls", "ball_roughness", "screw_roughness",
+        "ball_circle",
+        "conformity",
+        "contact_angle",
+        "loaded_balls",
+        "ball_roughness",
+        "screw_roughness",
         "nut_roughness",
-    }  # fmt: skip
+    }
     assert all(one.low <= one.value <= one.high for one in found.estimates)
 
 

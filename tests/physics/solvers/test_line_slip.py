@@ -19,11 +19,13 @@ TRACTIONS = [-0.9, -0.3, 0.0, 0.2, 0.6, 0.95]
 def coefficients(spin_parameter, traction_ratio):
     """Traction, curvature and spin coefficient of the lines that belong to a spin and a traction."""
     lines = pure_rolling_lines(spin_parameter, traction_ratio)
-    return np.array([
-        slip.line_traction_ratio(lines.lower, lines.upper),
-        slip.line_curvature_coefficient(lines.lower, lines.upper),
-        slip.line_spin_coefficient(lines.lower, lines.upper),
-    ])  # fmt: skip
+    return np.array(
+        [
+            slip.line_traction_ratio(lines.lower, lines.upper),
+            slip.line_curvature_coefficient(lines.lower, lines.upper),
+            slip.line_spin_coefficient(lines.lower, lines.upper),
+        ]
+    )
 
 
 def change_over(traction_ratio):

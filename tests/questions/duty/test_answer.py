@@ -90,5 +90,9 @@ def test_the_noise_of_a_recorded_motion_has_the_unit_of_what_was_recorded(kind, 
     found = kind(100, 3, 1e-6, 0.1, 2.0)
     assert declared.units(found) == {"noise": unit, "acceleration_noise": "m/s^2", "torque_rms_unsmoothed": "N m"}
     assert list(declared.document(found)) == [
-        "samples", "half_width", "noise", "acceleration_noise", "torque_rms_unsmoothed",
-    ]  # fmt: skip
+        "samples",
+        "half_width",
+        "noise",
+        "acceleration_noise",
+        "torque_rms_unsmoothed",
+    ]

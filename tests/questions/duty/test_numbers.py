@@ -91,8 +91,11 @@ def test_the_numbers_of_a_cycle_by_hand(report):
     energies = [torque * direction * way / ARM for torque, direction, way in by_hand()]
     drawn, returned = sum(max(one, 0.0) for one in energies), sum(max(-one, 0.0) for one in energies)
     powers = [torque * direction * 0.2 / ARM for torque, direction, _ in by_hand()]
-    lost = sum(abs(100 * (G + d * a) + f) * way * 0.25 for d, f in ((1, -2500), (-1, 0))
-               for a, way in ((4, 0.005), (0, 0.39), (-4, 0.005)))  # fmt: skip
+    lost = sum(
+        abs(100 * (G + d * a) + f) * way * 0.25
+        for d, f in ((1, -2500), (-1, 0))
+        for a, way in ((4, 0.005), (0, 0.39), (-4, 0.005))
+    )
     wanted = {
         "cycle_time": cycle, "mean_speed": 0.8 / ARM / cycle, "largest_speed": 0.2 / ARM, "revolutions": 80.0,
         "power_peak": max(powers), "power_returned_peak": -min(powers), "energy_drawn": drawn,

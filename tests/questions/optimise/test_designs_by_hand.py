@@ -47,9 +47,13 @@ def test_designs_are_rated_as_rows_are(spacer_balls):
     found = designs(spacer_balls)
     for i, (circle, lead, ball, turns) in enumerate(SIZES):
         row = CatalogueRow(
-            name="one", nominal_diameter=circle, lead=lead, ball_diameter=ball, turns=turns + 0.24,
+            name="one",
+            nominal_diameter=circle,
+            lead=lead,
+            ball_diameter=ball,
+            turns=turns + 0.24,
             spacer_balls=spacer_balls,
-        )  # fmt: skip
+        )
         assert found.loaded_balls[i] == row.loaded_balls
         assert found.loaded_turns[i] == row.loaded_balls / row.balls_per_turn
         whole = row_of_turns(row, row.loaded_balls / row.balls_per_turn)
@@ -63,9 +67,13 @@ def test_designs_are_rated_as_rows_are(spacer_balls):
 def row_of_turns(row, turns):
     """A row whose loaded turns are those that whole balls fill."""
     return CatalogueRow(
-        name=row.name, nominal_diameter=row.nominal_diameter, lead=row.lead, ball_diameter=row.ball_diameter,
-        turns=turns + 0.24, spacer_balls=row.spacer_balls,
-    )  # fmt: skip
+        name=row.name,
+        nominal_diameter=row.nominal_diameter,
+        lead=row.lead,
+        ball_diameter=row.ball_diameter,
+        turns=turns + 0.24,
+        spacer_balls=row.spacer_balls,
+    )
 
 
 def test_demand_over_capacity_of_designs_by_hand():
@@ -75,9 +83,14 @@ def test_demand_over_capacity_of_designs_by_hand():
     limits = Limits(running_time=1e4 * 3600, static_safety=3.0, shaft_stress=100e6)
     load, speed, left = -5e3, np.full(3, -100.0), np.array([0.0, 2e3, 0.0])
     used = found.utilisations(
-        axial_load=load, screw_speed=speed, left=left, pressure=np.full(3, 2.1e9), young_modulus=206e9,
-        installation=mounted, limits=limits,
-    )  # fmt: skip
+        axial_load=load,
+        screw_speed=speed,
+        left=left,
+        pressure=np.full(3, 2.1e9),
+        young_modulus=206e9,
+        installation=mounted,
+        limits=limits,
+    )
     C_a, C_0a, d_r = (values[one] for values in (found.dynamic_rating, found.static_rating, found.root_diameter))
     hours = 1e6 * (C_a / 5e3) ** 3 / (100 / (2 * math.pi)) / 3600
     assert used["running_time"][one] == pytest.approx(1e4 / hours)
@@ -113,15 +126,24 @@ def test_requirements_of_designs_by_hand(nut):
         turning_shaft=None,
     )
     asked = Requirements(
-        largest_drive_torque=5.0, largest_preload_torque=1.0, least_rigidity=4e8, least_remaining_preload=1e3,
-        largest_inertia=2e-3, largest_step=8e-6, counts_per_turn=1000, back_driving="forbidden", stroke=1.0,
-    )  # fmt: skip
+        largest_drive_torque=5.0,
+        largest_preload_torque=1.0,
+        least_rigidity=4e8,
+        least_remaining_preload=1e3,
+        largest_inertia=2e-3,
+        largest_step=8e-6,
+        counts_per_turn=1000,
+        back_driving="forbidden",
+        stroke=1.0,
+    )
 
     def used(required):
         model = types.SimpleNamespace(
-            requirements=required, case=case, space=types.SimpleNamespace(nut=nut),
+            requirements=required,
+            case=case,
+            space=types.SimpleNamespace(nut=nut),
             _back_driving=lambda designs, at: np.array([7.0, 8, 9]),
-        )  # fmt: skip
+        )
         return DesignModel.utilisations(model, designs(), np.full(3, 10.0), at, numbers)
 
     found = used(asked)
@@ -152,8 +174,9 @@ def test_the_torque_that_a_load_has_left_by_hand(needs, holding, used, way):
     rest, moving = (way * 3.0 * np.full(3, one) for one in holding)
     model = types.SimpleNamespace(
         case=types.SimpleNamespace(operation=types.SimpleNamespace(axial_load=way * 3e3 * math.pi)),
-        requirements=Requirements(back_driving=needs), _at=lambda designs, load, speed: {"holding_torque": rest},
-    )  # fmt: skip
+        requirements=Requirements(back_driving=needs),
+        _at=lambda designs, load, speed: {"holding_torque": rest},
+    )
     of_lead = types.SimpleNamespace(lead=np.full(3, 0.002))
     found = DesignModel._back_driving(model, of_lead, {"holding_torque": moving})
     assert found == pytest.approx(np.full(3, used))
@@ -243,15 +266,24 @@ def test_the_largest_change_counts_either_way(full):
 def test_the_tables_of_a_design():
     """Sizes and balls of the design; what belongs to one screw goes, what belongs to all stays."""
     need = need_of(
-        {**POINT, "nut": {"type": "double", "spacer_balls": True}, "bodies": {"nut_outer_diameter": "70 mm"},
-         "screw": {"contact_angle": "40 deg", "starts": 2, "root_diameter": "35 mm"}}
-    )  # fmt: skip
+        {
+            **POINT,
+            "nut": {"type": "double", "spacer_balls": True},
+            "bodies": {"nut_outer_diameter": "70 mm"},
+            "screw": {"contact_angle": "40 deg", "starts": 2, "root_diameter": "35 mm"},
+        }
+    )
     sizes = {"pitch_circle_diameter": 0.05, "lead": 0.01, "ball_diameter": 0.006}
     found = compute.tables_of(need, design_space(need), sizes, balls=99.0, preload=1234.5)
     assert found["screw"] == {
-        "contact_angle": "40 deg", "screw_conformity": 0.54, "nut_conformity": 0.54, "loaded_balls": 99,
-        "pitch_circle_diameter": "50 mm", "lead": "10 mm", "ball_diameter": "6 mm",
-    }  # fmt: skip
+        "contact_angle": "40 deg",
+        "screw_conformity": 0.54,
+        "nut_conformity": 0.54,
+        "loaded_balls": 99,
+        "pitch_circle_diameter": "50 mm",
+        "lead": "10 mm",
+        "ball_diameter": "6 mm",
+    }
     assert found["bodies"] == {}
     assert found["nut"] == {"type": "double", "spacer_balls": True, "preload": "1234.5 N"}
     speed, unit = found["operation"]["screw_speed"].split()

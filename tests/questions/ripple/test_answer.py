@@ -139,8 +139,13 @@ def test_a_case_may_describe_its_circuits(case):
 def test_faults_by_what_was_written():
     found = defects_of(["missing-ball", "full", "spall=2 mm x 2 um", "spall = 0.5mm×3um", "preload=0.35", "groove=3"])
     assert list(found.values()) == [
-        MissingBall(), FullCircuit(), Spall(2e-3, 2e-6), Spall(0.5e-3, 3e-6), PreloadLeft(0.35), NutGroove(3.0),
-    ]  # fmt: skip
+        MissingBall(),
+        FullCircuit(),
+        Spall(2e-3, 2e-6),
+        Spall(0.5e-3, 3e-6),
+        PreloadLeft(0.35),
+        NutGroove(3.0),
+    ]
     assert defects_of(["preload=35 %"])["preload=35 %"].share == pytest.approx(0.35, rel=1e-14)
     assert set(defects_of(ALL)) == set(ALL)
 

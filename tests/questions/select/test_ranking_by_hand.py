@@ -35,9 +35,15 @@ def candidate(name, *checks, loss=1.0, life=2e4 * HOUR, valid=True, complete=Tru
     row = types.SimpleNamespace(name=name, preload=None, preload_share=None, nut="")
     objectives = {**dict.fromkeys(OBJECTIVES, math.nan), "loss": loss, "life": life, **more}
     return Candidate(
-        Variant(row, "single", "", {"grade": "A"}), None, checks, objectives, 0.0, None, run if complete else None,
+        Variant(row, "single", "", {"grade": "A"}),
+        None,
+        checks,
+        objectives,
+        0.0,
+        None,
+        run if complete else None,
         life_looked_for=looked_for,
-    )  # fmt: skip
+    )
 
 
 def test_the_order_of_a_table_made_by_hand():
@@ -341,8 +347,11 @@ def test_a_mass_needs_all_of_its_motion(missing):
     ] + [f"need.{name}" for name in ("stroke", "feed") if name in missing]
     if not missing:
         assert tables["motion"] == {
-            "acceleration": "3 m/s^2", "kind": "trapezoid", "stroke": "600 mm", "speed": "24 m/min",
-        }  # fmt: skip
+            "acceleration": "3 m/s^2",
+            "kind": "trapezoid",
+            "stroke": "600 mm",
+            "speed": "24 m/min",
+        }
         assert "feed" not in tables["need"]
         assert len(notes) == 2
     else:
@@ -372,8 +381,11 @@ def test_the_document_of_a_need_has_what_is_required_and_nothing_else():
     )
     found = need_document(need)
     assert found["requirements"] == {
-        "feed": pytest.approx(1 / 6), "largest_drive_torque": 5.0, "back_driving": "forbidden", "accuracy": "5",
-    }  # fmt: skip
+        "feed": pytest.approx(1 / 6),
+        "largest_drive_torque": 5.0,
+        "back_driving": "forbidden",
+        "accuracy": "5",
+    }
     assert found["choices"]["nut"] == ["double"]
     plain = need_document(need_of({"force": "2 kN", "screw_speed": "600 rpm"}))
     assert plain["requirements"] == {"back_driving": "allowed"}

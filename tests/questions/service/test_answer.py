@@ -56,5 +56,6 @@ def test_every_number_has_a_unit(answer):
     assert list(without_unit(answer["results"], answer["units"])) == []
     # each of these numbers says its own unit
     assert {name for one in causes for name in without_unit(one, answer["units"]["alternatives"])} <= {
-        "value", "instead_of",
-    }  # fmt: skip
+        "value",
+        "instead_of",
+    }

@@ -150,10 +150,19 @@ class Every:
 
 
 VALUES = Every(
-    names=["two", "three"], ranges={"x": (0.001, 0.002)}, texts={"a": "b = c"}, choice="b", length=0.002, warmer=2.0,
-    places=[0.3, 0.5], share=0.25, count=3, text="t", switch=True,
+    names=["two", "three"],
+    ranges={"x": (0.001, 0.002)},
+    texts={"a": "b = c"},
+    choice="b",
+    length=0.002,
+    warmer=2.0,
+    places=[0.3, 0.5],
+    share=0.25,
+    count=3,
+    text="t",
+    switch=True,
     table=["x=1:2", "x=3"],
-)  # fmt: skip
+)
 TYPED = [
     "--names", "two, three", "--ranges", "x=1:2 mm", "--texts", "a=b = c", "--choice", "b", "-l", "2 mm",
     "--warmer", "2 K", "--places", "300 mm", "--places", "0.5 m",
@@ -221,11 +230,19 @@ def test_every_kind_in_a_body():
     with pytest.raises(pydantic.ValidationError):
         body(share="0.25")
     assert {one["name"]: one["kind"] for one in vocabulary_of(Every)} == {
-        "names": "names", "ranges": "ranges", "texts": "texts", "choice": "choice", "length": "quantity",
-        "warmer": "quantity", "places": "quantities",
-        "share": "number", "count": "whole", "text": "text", "switch": "switch",
+        "names": "names",
+        "ranges": "ranges",
+        "texts": "texts",
+        "choice": "choice",
+        "length": "quantity",
+        "warmer": "quantity",
+        "places": "quantities",
+        "share": "number",
+        "count": "whole",
+        "text": "text",
+        "switch": "switch",
         "table": "texts",
-    }  # fmt: skip
+    }
 
 
 FAULTS = {

@@ -40,9 +40,17 @@ def test_the_band_of_a_row_is_that_of_a_case(name, fitted):
     case = Case(model, at.screw, at.lubricant, state, sweep={}, oil={}, calibration=found)
     uncertain, joint = compute.distributions(case, uncertain_inputs.all_of(case))
     same = bands.band(
-        model, at.screw, at.lubricant, distributions=uncertain, joint=joint, alternatives=compute.alternatives(case),
-        axial_load=at.axial_load, screw_speed=at.screw_speed, samples=64, engine="numpy",
-    )  # fmt: skip
+        model,
+        at.screw,
+        at.lubricant,
+        distributions=uncertain,
+        joint=joint,
+        alternatives=compute.alternatives(case),
+        axial_load=at.axial_load,
+        screw_speed=at.screw_speed,
+        samples=64,
+        engine="numpy",
+    )
     assert one.uncertainty == pytest.approx(tuple(same["screw_torque"].both), rel=1e-9)
     assert one.uncertainty[0] < one.value < one.uncertainty[1]
 
