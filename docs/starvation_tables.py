@@ -25,7 +25,7 @@ from ballscrew.physics.friction.starvation import differs
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared.text_tables import markdown_table
-from ballscrew.questions.warm_up.compute import load, warmed_up
+from ballscrew.questions.warm_up.compute import warmed_up
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Temperatures of the oil, or of the hall, °C.
@@ -71,7 +71,7 @@ def of_warm_up(degrees: float) -> Answers:
     nothing = Cell(math.nan, math.nan)
     if degrees + ZERO < COLDEST:
         return {"warm-up, start": nothing, "warm-up, end": nothing}
-    report = warmed_up(load(EXAMPLES / "warm_up.toml", [f"surroundings.ambient={degrees} degC"], None))
+    report = warmed_up(case_file.load(EXAMPLES / "warm_up.toml", [f"surroundings.ambient={degrees} degC"], moves=True))
     full = report if report.full_bath is None else report.full_bath
     return {
         "warm-up, start": Cell(float(report.series["screw_torque"][0]), report.warm_up.flooded_torque),

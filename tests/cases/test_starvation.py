@@ -14,7 +14,8 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.laws.inlet import Inlet
-from ballscrew.questions.band import compute, document
+from ballscrew.questions.band import compute
+from ballscrew.questions.band.answer import verdicts
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.check import compute as check
 from ballscrew.questions.check.sheet import of_rows
@@ -35,7 +36,7 @@ from ballscrew.questions.sweep import table
 from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.warm_up import answer as warm_up_documents
 from ballscrew.questions.warm_up import self_heating
-from ballscrew.questions.warm_up.compute import load, warmed_up
+from ballscrew.questions.warm_up.compute import warmed_up
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet as warm_up_sheet
 from support.commands import ROOT
@@ -98,14 +99,14 @@ def test_what_friction_holds_in_motion_alone_is_no_self_locking():
 def test_the_band_says_where_the_full_bath_lies():
     case = case_with()
     report = compute.band(case, compute.BandOptions(samples=2, only_given=True))
-    found = {record.id: record for record in document.verdicts(case, report)}["band.flooded"]
+    found = {record.id: record for record in verdicts(case, report)}["band.flooded"]
     assert found.value == run(case).friction.flooded_torque
     assert found.limit == report.band["screw_torque"].both.high
     assert f"a full bath of oil, {found.value:.4g} N m" in found.text
     assert "inlet" in report.band.alternatives
     # of a fit, which exchanges no law, the band is of one track
     alone = dataclasses.replace(report, band=dataclasses.replace(report.band, alternatives={}))
-    said = {record.id: record for record in document.verdicts(case, alone)}["band.flooded"]
+    said = {record.id: record for record in verdicts(case, alone)}["band.flooded"]
     assert said.text.startswith("the band takes oil to come back into the track late")
 
 
@@ -196,7 +197,9 @@ def test_the_motor_is_judged_by_the_larger_torque_and_the_brake_by_the_smaller()
 
 def document_of_warm_up(ambient, *settings):
     settings = (f"surroundings.ambient={ambient}", *settings)
-    return warm_up_documents.document(warmed_up(load(ROOT / "examples" / "warm_up.toml", settings, None)))
+    return warm_up_documents.document(
+        warmed_up(case_file.load(ROOT / "examples" / "warm_up.toml", settings, moves=True))
+    )
 
 
 def test_a_cold_start_stands_beside_that_of_a_full_bath():
@@ -380,8 +383,8 @@ def test_a_sweep_that_heats_itself_is_judged_at_the_oil_as_warm_as_it_becomes():
 
 def test_self_heating_says_what_a_full_bath_would_end_in():
     settings = ["surroundings.ambient=-5 degC", "lubricant.temperature=-5 degC"]
-    cold = self_heating.self_heating(load(ROOT / "examples" / "warm_up.toml", settings, None))
-    bath = self_heating.self_heating(load(ROOT / "examples" / "warm_up.toml", [*settings, BATH], None))
+    cold = self_heating.self_heating(case_file.load(ROOT / "examples" / "warm_up.toml", settings, moves=True))
+    bath = self_heating.self_heating(case_file.load(ROOT / "examples" / "warm_up.toml", [*settings, BATH], moves=True))
     found = cold.numbers
     assert found.flooded_torque == pytest.approx(bath.numbers.screw_torque, rel=1e-6)
     assert found.flooded_torque_given == pytest.approx(bath.numbers.screw_torque_given, rel=1e-9)
@@ -504,7 +507,7 @@ def test_an_export_is_judged_without_load_too():
 @pytest.mark.slow
 def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up():
     case = case_file.build(tables_of_duty("-5 degC"), moves=True)
-    cold = warmed_up(load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], None))
+    cold = warmed_up(case_file.load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], moves=True))
     of_warm_up = report_blocks.blocks(warm_up_sheet(cold), "warm_up")
     for blocks in (report_blocks.blocks(sheet(duty(case)), "duty"), of_warm_up):
         assert "in a full bath of oil" in blocks[0].text

@@ -12,7 +12,7 @@ import pytest
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.torque_cards import torque_card
-from ballscrew.questions.validate import compute, document
+from ballscrew.questions.validate import answer, compute
 from ballscrew.questions.validate.sheet import sheet
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "torque_cards" / "synthetic_40x10.toml"
@@ -107,7 +107,7 @@ def test_a_card_against_the_model():
     request = compute.request(cards=[EXAMPLE])
     ((entries, notes),) = compute.evaluate(request)
     assert notes == ["synthetic_40x10: synthetic: made by a model, says nothing of a screw"]
-    before, after = document.documents(entries)
+    before, after = answer.documents(entries)
     assert (before["calibration"], after["calibration"]) == (None, "rexroth-2006")
     assert before["card"]["made_by"] == "model"
     card = torque_card.read(EXAMPLE)

@@ -1,4 +1,5 @@
-"""Questions of users: a folder for each, with its computation, document, text, picture and tables.
+"""Questions of users: a folder for each, with its options, its answer and the sheet that is shown of it.
 
-May import ``exports`` and below; files named ``figure`` alone import matplotlib. Start with ``duty``.
+May import ``exports`` and below. Those that the command line registers from a record have it in ``question``; the
+commands of the others stand in ``faces/cli``. Start with ``duty``.
 """

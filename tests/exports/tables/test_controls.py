@@ -18,7 +18,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.exports import hand_over
 from ballscrew.exports.export import target
 from ballscrew.exports.tables.curves import beckhoff, drive, friction_curve, linuxcnc
-from ballscrew.questions.hand_over import document
+from ballscrew.questions.hand_over import answer
 
 RANGES = {"axial_load": (-3000.0, 3000.0), "screw_speed": (-100.0, 100.0)}
 #: The example of the manual: infosys.beckhoff.com, tf5200_friction_comp, Parameterisation.
@@ -207,4 +207,4 @@ def test_a_curve_of_one_direction_is_that_of_both_and_says_so(handed_over):
     assert one.valid_range["screw_speed"] == (-100.0, 100.0)
     assert [record.id for record in both.warnings] == ["hand_over.one_load"]
     assert one.warnings[-1].text.endswith("-954.9 rpm to 954.9 rpm, not 0 rpm to 954.9 rpm only")
-    assert "axial_load: 500 N\n" in document.text(one, [])
+    assert "axial_load: 500 N\n" in answer.text(one, [])

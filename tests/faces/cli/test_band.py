@@ -16,7 +16,7 @@ from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.rolling import biboulet_houpert_rolling
 from ballscrew.physics.laws.traits import LawTraits, traits_of
-from ballscrew.questions.band import compute, document
+from ballscrew.questions.band import answer, compute
 from ballscrew.questions.band.sheet import sheet
 from ballscrew.questions.compare.compute import candidates
 from ballscrew.questions.shared import charts
@@ -73,7 +73,7 @@ def output_band(value, both, inputs, laws, median=1.0):
     ],
 )
 def test_where_the_laws_pull_the_band_one_line_says_which_number_to_use(torque, ids, used):
-    found = document.beside_laws(torque, quantities_of(FrictionResult)["screw_torque"])
+    found = answer.beside_laws(torque, quantities_of(FrictionResult)["screw_torque"])
     assert [record.id for record in found] == ids
     assert [record.value for record in found] == used
     assert all(f"{value:.3g} N m" in record.text for value, record in zip(used, found, strict=True))

@@ -9,9 +9,10 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Table
+from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions.compensation.answer import document, isg, position_compensation, sheet, sinumerik
-from ballscrew.questions.warm_up.compute import load, warmed_up
+from ballscrew.questions.warm_up.compute import warmed_up
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "warm_up.toml"
@@ -148,7 +149,7 @@ def test_a_state_that_was_never_reached_has_no_table(report):
 
 
 def test_sheet_and_document_tell_of_the_warm_up():
-    report = warmed_up(load(EXAMPLE, ["model.name=olaru2005"], None), 0.01)
+    report = warmed_up(case_file.load(EXAMPLE, ["model.name=olaru2005"], moves=True), 0.01)
     found = position_compensation(report, 0.01)
     made = sheet(found, report)
     told, said = plain(document(found, report)), " ".join(terminal.text(made).split())
@@ -165,7 +166,9 @@ def test_sheet_and_document_tell_of_the_warm_up():
 @pytest.mark.parametrize(("direction", "sign"), [("away", 1.0), ("towards", -1.0)])
 def test_both_lists_are_the_growth_of_another_case(direction, sign):
     """At places between their points too, to what they say that they miss and the digits that they have."""
-    case = load(EXAMPLE, ["model.name=olaru2005", "surroundings.ambient=12 degC", "screw.lead=8 mm"], None)
+    case = case_file.load(
+        EXAMPLE, ["model.name=olaru2005", "surroundings.ambient=12 degC", "screw.lead=8 mm"], moves=True
+    )
     report = warmed_up(case, 0.3)
     zero, step = 0.15, 0.04
     found = position_compensation(report, 0.3, zero=zero, step=step, direction=direction, reference=0.0)

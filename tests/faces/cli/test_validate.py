@@ -16,7 +16,7 @@ from ballscrew.faces.sheets import pictures
 from ballscrew.physics.friction.calibrations import calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.shared.charts import house_style
-from ballscrew.questions.validate import compute, document, sheet
+from ballscrew.questions.validate import answer, compute, sheet
 from support.documents import assert_same
 from support.validation_sets import every_set
 
@@ -62,7 +62,7 @@ def own(tmp_path):
 
 @pytest.fixture(scope="module")
 def every():
-    return plain(document.documents([entry for entries in every_set() for entry in entries]))
+    return plain(answer.documents([entry for entries in every_set() for entry in entries]))
 
 
 def test_a_list_uncalibrated_first_calibrated_last(every):

@@ -13,12 +13,13 @@ import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Columns
+from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions.band.compute import heat_samples
 from ballscrew.questions.duty import band
 from ballscrew.questions.warm_up import band as warm_up_band
 from ballscrew.questions.warm_up.answer import document
-from ballscrew.questions.warm_up.compute import SERIES, load, warmed_up
+from ballscrew.questions.warm_up.compute import SERIES, moves, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
 from ballscrew.questions.warm_up.sheet import sheet
 from support.commands import ROOT
@@ -56,7 +57,8 @@ def case(tmp_path):
     def of(written, *settings):
         path = tmp_path / "case.toml"
         path.write_text(written, encoding="utf-8")
-        return load(path, settings, None)
+        tables = case_file.override(case_file.read(path), settings)
+        return case_file.build(tables, moves=moves(tables))
 
     return of
 
@@ -134,7 +136,7 @@ def test_band_in_all_forms(ballscrew, tmp_path):
 
 @pytest.mark.parametrize("study", ["warm-up", "duty"])
 def test_a_band_of_nothing_is_refused(study):
-    case = load(EXAMPLE, ["model.name=olaru2005"], None)
+    case = case_file.load(EXAMPLE, ["model.name=olaru2005"], moves=True)
     # the duty itself is not asked for
     banded, of = (band.band, SimpleNamespace(case=case)) if study == "duty" else (warm_up_band.band, case)
     with pytest.raises(InputError, match=r"^--only-given: the case gives no input a distribution"):

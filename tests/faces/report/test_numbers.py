@@ -9,8 +9,8 @@ from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import Number, Share, words
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.units import to_digits
+from ballscrew.faces.sheets.report_blocks import Paragraph, Picture, Report, Section, as_data
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.shared.report_blocks import Paragraph, Picture, Report, Section, as_data
 
 KNOWN = quantities_of(FrictionResult)
 TORQUE = KNOWN["screw_torque"]

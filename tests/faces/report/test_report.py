@@ -37,15 +37,7 @@ from ballscrew.faces.report.contents import Heading
 from ballscrew.faces.report.curves import curves
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.report.pdf import html_bytes, pdf_bytes, report_bytes
-from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.physics.laws.nut_losses import ConstantTorque
-from ballscrew.questions.axis.answer import SERIES, chain_of
-from ballscrew.questions.band import compute
-from ballscrew.questions.check.compute import checked
-from ballscrew.questions.duty.compute import NUMBERS, duty
-from ballscrew.questions.run.compute import run
-from ballscrew.questions.shared.question import CaseOptions
-from ballscrew.questions.shared.report_blocks import (
+from ballscrew.faces.sheets.report_blocks import (
     Bar,
     Bullets,
     Columns,
@@ -57,6 +49,14 @@ from ballscrew.questions.shared.report_blocks import (
     Table,
     value,
 )
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.nut_losses import ConstantTorque
+from ballscrew.questions.axis.answer import SERIES, chain_of
+from ballscrew.questions.band import compute
+from ballscrew.questions.check.compute import checked
+from ballscrew.questions.duty.compute import NUMBERS, duty
+from ballscrew.questions.run.compute import run
+from ballscrew.questions.shared.question import CaseOptions
 from ballscrew.questions.warm_up.compute import warmed_up
 from ballscrew.questions.warm_up.verdicts import verdicts
 from support.axis_cases import load as axis_load

@@ -10,11 +10,11 @@ from ballscrew.basis.output.sheet import Number, words
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.faces.report import several
 from ballscrew.faces.report.pdf import pdf_bytes
+from ballscrew.faces.sheets.report_blocks import as_data
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import compute
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.run.compute import run
-from ballscrew.questions.shared.report_blocks import as_data
 
 NAMES = ("catalogue_screw", "feed_drive", "rig")
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]

@@ -11,8 +11,8 @@ import pytest
 from pypdf import PdfReader
 
 from ballscrew.faces.report.pdf import pdf_bytes
+from ballscrew.faces.sheets.report_blocks import Report
 from ballscrew.faces.web import limits
-from ballscrew.questions.shared.report_blocks import Report
 
 pytestmark = pytest.mark.slow
 

@@ -19,7 +19,7 @@ from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.faces.web.server import (
     application,
 )
-from ballscrew.questions.validate import document
+from ballscrew.questions.validate import answer
 from support.validation_sets import every_set
 
 pytestmark = pytest.mark.slow
@@ -134,7 +134,7 @@ def test_the_bodies_to_try_follow_their_schema():
 def test_whatever_may_be_null_is_described():
     """A field that the description does not name may be anything: of null, a client learns from its description."""
     # all sets at once, without a server
-    entries = plain(document.documents([entry for entries in every_set() for entry in entries]))
+    entries = plain(answer.documents([entry for entries in every_set() for entry in entries]))
     parts = schema.raw_schema["components"]["schemas"]
     for name, tables in (("ValidationEntry", entries), ("ValidationRow", [row for e in entries for row in e["rows"]])):
         null = {field for table in tables for field, value in table.items() if value is None}

@@ -12,7 +12,7 @@ from ballscrew.evidence.papers.olaru2005 import SCREW
 from ballscrew.physics.equations import across_groove, presliding
 from ballscrew.physics.friction.across_groove import arms_of
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
-from ballscrew.physics.moving_balls.reversal import MECHANISMS, STROKES, loops, reversal, step_count
+from ballscrew.physics.moving_balls.reversal import MECHANISMS, loops, reversal
 
 REFERENCE = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("VG 100", temperature=313.15)
@@ -215,25 +215,3 @@ def test_on_a_short_stroke_balls_slip_by_their_spin_alone(turned, ball):
     expected = parts["rolling"] + parts["losses"] + slip + pressed
     assert loop.work_share * turned.steady_torque == pytest.approx(expected, rel=0.03)
     assert slip > 1.5 * parts["spin_and_curvature"]
-
-
-@pytest.mark.slow
-def test_steps_are_those_that_are_taken(monkeypatch):
-    """All but those within the first five cells, which are finer."""
-    taken = []
-    turn = Brush.turn
-    monkeypatch.setattr(Brush, "turn", lambda brush, angle: taken.append(angle) or turn(brush, angle))
-    short, long = ({**SLOW, "travel": travel} for travel in (1e-4, 4e-4))
-    reversal(REFERENCE, SINGLE, OIL, **short)
-    finer = len(taken) - step_count(REFERENCE, SINGLE, OIL, **short)
-    taken.clear()
-    reversal(REFERENCE, SINGLE, OIL, **long)
-    assert len(taken) - finer == step_count(REFERENCE, SINGLE, OIL, **long)
-    assert 0 < finer < 100
-    after = reversal(REFERENCE, SINGLE, OIL, **short)
-    taken.clear()
-    loops(REFERENCE, SINGLE, OIL, after, **SLOW)
-    steps = [step_count(REFERENCE, SINGLE, OIL, **short, strokes=strokes) for strokes in ((), STROKES)]
-    assert len(taken) == steps[1] - steps[0]
-    with pytest.raises(bs.InputError, match=r"reversal\.travel: must be above zero"):
-        step_count(REFERENCE, SINGLE, OIL, **{**SLOW, "travel": 0.0})

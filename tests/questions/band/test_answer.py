@@ -8,8 +8,8 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.band import compute, document
-from ballscrew.questions.band.document import BandResults
+from ballscrew.questions.band import compute
+from ballscrew.questions.band.answer import BandResults, document, verdicts
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared import declared
@@ -20,7 +20,7 @@ from support.commands import ROOT
 def answer():
     case = case_file.load(ROOT / "examples" / "olaru2005.toml")
     report = compute.band(case, BandOptions(samples=64))
-    return plain(document.document(run(case), report))
+    return plain(document(run(case), report))
 
 
 def test_every_output_is_on_every_face(answer):
@@ -46,12 +46,12 @@ def test_without_load_each_rule_is_within_the_band_or_not(preload):
     case = case_file.load(ROOT / "examples" / "service.toml", [*settings, "operation.axial_load=0 N"])
     report = compute.band(case, BandOptions(samples=64))
     low, high = report.band["screw_torque"].both
-    found = {one.id: one for one in document.verdicts(case, report) if one.id.startswith("band.rule_")}
+    found = {one.id: one for one in verdicts(case, report) if one.id.startswith("band.rule_")}
     assert found.keys() == {"band.rule_jis", "band.rule_rexroth", "band.rule_hiwin"}
     for one in by_rules(case):
         record = found[f"band.rule_{one.rule.name}"]
         assert record.value == pytest.approx(one.torque + 0.3, rel=1e-9)
         assert record.holds == (low <= record.value <= high) == record.text.endswith("within the band")
     loaded = case_file.load(ROOT / "examples" / "service.toml", [*settings, "operation.axial_load=1 kN"])
-    told = document.verdicts(loaded, compute.band(loaded, BandOptions(samples=64)))
+    told = verdicts(loaded, compute.band(loaded, BandOptions(samples=64)))
     assert not [one.id for one in told if one.id.startswith("band.rule_")]

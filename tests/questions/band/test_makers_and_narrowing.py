@@ -9,7 +9,7 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.bands import _without  # of a linear model, which no screw is
 from ballscrew.physics.components.nut import Nut
-from ballscrew.questions.band import compute, document
+from ballscrew.questions.band import answer, compute
 from ballscrew.questions.band.options import BandOptions
 
 OWN = {
@@ -99,5 +99,5 @@ def test_a_band_in_the_cold_holds_both_tracks(celsius):
     flooded = float(found.model.in_full_bath(found.screw, found.lubricant, **at).screw_torque)
     assert both.low < given < both.high
     assert both.low < flooded < both.high
-    said = {record.id: record for record in document.verdicts(found, report)}
+    said = {record.id: record for record in answer.verdicts(found, report)}
     assert ("band.flooded" in said) == (flooded > 1.1 * given)

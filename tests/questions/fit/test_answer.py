@@ -10,8 +10,8 @@ from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Columns
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import files, terminal
-from ballscrew.questions.fit import compute, document
-from ballscrew.questions.fit.document import FitResults, FittedNumber
+from ballscrew.questions.fit import compute
+from ballscrew.questions.fit.answer import FitResults, FittedNumber, document
 from ballscrew.questions.fit.log import read_options, steady_log
 from ballscrew.questions.fit.sheet import of_rows, sheet, trade_off
 from ballscrew.questions.shared import declared
@@ -33,7 +33,7 @@ def fitted(request, tmp_path_factory):
 
 def test_every_number_is_on_every_face(fitted):
     case, report = fitted
-    answer = plain(document.document(case, report))
+    answer = plain(document(case, report))
     cells = files.rows_of(next(of_rows({"log": report}).of_kind(Columns)))
     row = dict(zip(cells.headings, cells.rows[0], strict=True))
     model = declared.schema(FitResults).model_json_schema()
@@ -55,14 +55,14 @@ def test_every_number_is_on_every_face(fitted):
 
 
 def test_results_are_valid_by_their_schema(fitted):
-    answer = plain(document.document(*fitted))
+    answer = plain(document(*fitted))
     declared.schema(FitResults).model_validate({name: answer[name] for name in declared.parts_of(FitResults)})
     for one in answer["estimates"].values():
         assert one["identified"] == (one["std"] is not None) == (one["low"] is not None)
 
 
 def test_every_number_has_a_unit(fitted):
-    answer = plain(document.document(*fitted))
+    answer = plain(document(*fitted))
     results = {name: answer[name] for name in declared.parts_of(FitResults)}
     # an estimate says its own unit, a column of the log has that of its name, and ratios have none
     own = {"estimates", "sensor", "identifiability", "covariance", "next_test"}

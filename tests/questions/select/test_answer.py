@@ -7,7 +7,7 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.faces.sheets import files
-from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, document, plan_document
+from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, document
 from ballscrew.questions.select.compute import Plan, plan
 from ballscrew.questions.select.requirements import OBJECTIVES
 from ballscrew.questions.select.response import Candidate, Select
@@ -95,6 +95,6 @@ def test_every_number_has_a_unit(found):
 
 
 def test_a_plan_is_valid_by_its_schema():
-    answer = plan_document(plan(POINT))
+    answer = declared.document(plan(POINT))
     declared.schema(Plan).model_validate(answer)
     assert answer["unasked"][0].keys() == {"input", "checks"}

@@ -3,7 +3,7 @@
 import pytest
 
 from ballscrew.faces.report.validation import NOT_MEASURED, report
-from ballscrew.questions.shared.report_blocks import Bullets, Picture, Table
+from ballscrew.faces.sheets.report_blocks import Bullets, Picture, Table
 from ballscrew.questions.validate import compute
 from ballscrew.questions.validate.sheet import summary
 

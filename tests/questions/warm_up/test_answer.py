@@ -12,7 +12,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.questions.shared import declared
 from ballscrew.questions.warm_up import compute, verdicts
 from ballscrew.questions.warm_up.answer import BesideWarmUp, WarmUpResults, document
-from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, load, warmed_up
+from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet
@@ -25,7 +25,7 @@ WARM, COLD = ["surroundings.ambient=45 degC"], ["surroundings.ambient=-5 degC", 
 
 @pytest.fixture(scope="module")
 def report():
-    return warmed_up(load(EXAMPLE, [], None), hours=1.0, cool_down=1.0)
+    return warmed_up(case_file.load(EXAMPLE, [], moves=True), hours=1.0, cool_down=1.0)
 
 
 def test_every_number_over_time_is_on_every_face(report):
@@ -63,7 +63,7 @@ def test_every_number_of_the_steady_state_is_on_every_face(report):
 @pytest.mark.slow
 @pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
 def test_answers_are_valid_by_their_schema(settings, starved):
-    report = warmed_up(load(EXAMPLE, settings, None), hours=0.5)
+    report = warmed_up(case_file.load(EXAMPLE, settings, moves=True), hours=0.5)
     found = document(report)
     declared.response(WarmUpResults, "WarmUp", beside=BesideWarmUp).model_validate({**found, "sheet": {}})
     assert (found["results"]["full_bath"] is not None) == starved
@@ -72,7 +72,7 @@ def test_answers_are_valid_by_their_schema(settings, starved):
 @pytest.mark.slow
 @pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
 def test_a_full_bath_is_drawn_where_oil_comes_back_late(settings, starved):
-    charts = sheet(warmed_up(load(EXAMPLE, settings, None), hours=0.5)).of_kind(Chart)
+    charts = sheet(warmed_up(case_file.load(EXAMPLE, settings, moves=True), hours=0.5)).of_kind(Chart)
     curves = {mark.name for chart in charts for mark in chart.marks}
     assert ("in a full bath of oil" in curves) == starved
 
@@ -84,7 +84,7 @@ def test_every_number_has_a_unit(report):
 
 
 def test_self_heating_has_units():
-    heating = self_heating(load(EXAMPLE, [], None))
+    heating = self_heating(case_file.load(EXAMPLE, [], moves=True))
     found = with_self_heating({"verdicts": []}, heating)
     assert found["results"]["self_heating"]["oil_temperature"] == heating.equilibrium.oil_temperature
     assert found["results"]["self_heating"].keys() == found["units"]["self_heating"].keys()
@@ -121,7 +121,7 @@ def test_sizes_that_are_given_are_not_assumed(report):
 def test_a_short_shaft_has_its_compensation_in_quarters():
     """At steps of 50 mm it would have three places, and its end."""
     short = ["surroundings.shaft_length=120 mm", "surroundings.first_position=10 mm", "motion.stroke=20 mm"]
-    report = warmed_up(load(EXAMPLE, [*short, "model.name=olaru2005"], None), hours=0.1)
+    report = warmed_up(case_file.load(EXAMPLE, [*short, "model.name=olaru2005"], moves=True), hours=0.1)
     assert report.compensation[0] == pytest.approx([0.0, 0.03, 0.06, 0.09, 0.12], rel=1e-12, abs=1e-15)
 
 

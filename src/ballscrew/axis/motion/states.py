@@ -167,7 +167,7 @@ def _nodes(number: int) -> tuple[Numbers, Numbers]:
     return np.array([0.0, *(nodes + 1) / 2, 1.0]), np.array([0.0, *weights / 2, 0.0])
 
 
-def states_of(phases: Sequence[Phase], nodes: int = NODES, cuts: Iterable[float] = ()) -> MotionStates:
+def states_of(phases: Sequence[Phase], cuts: Iterable[float] = ()) -> MotionStates:
     """States of phases one after the other, each with nodes of its own; a rest has one, besides its ends.
 
     A phase that moves is cut at the instants of ``cuts`` (s) that lie in it, and each part has its own nodes: they go
@@ -180,7 +180,7 @@ def states_of(phases: Sequence[Phase], nodes: int = NODES, cuts: Iterable[float]
         duration = float(phase.duration)
         middle = phase.at(np.asarray(duration / 2))
         rests = float(middle[1]) == 0 == float(middle[2])
-        share, weight = _nodes(1 if rests else nodes)
+        share, weight = _nodes(1 if rests else NODES)
         if not rests:
             share, weight = _cut(share, weight, [(at - start) / duration for at in instants])
         x, v, a = phase.at(share * duration)

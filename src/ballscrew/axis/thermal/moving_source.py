@@ -94,9 +94,7 @@ class Slot(ByValue):
         return preload, self._nuts.power_at((nut + shaft) / 2, preload)
 
 
-def marched(
-    slots: Sequence[Slot], pieces: Iterable[Piece], start: Numbers, *, grows: bool = True, since: Duration = 0.0
-) -> Iterator[State]:
+def marched(slots: Sequence[Slot], pieces: Iterable[Piece], start: Numbers, *, grows: bool = True) -> Iterator[State]:
     """States after the pieces that are shown; ``start`` has networks by temperatures.
 
     Steps grow with the time since the start where heat ``grows`` evenly, and stay short where its place moves.
@@ -114,7 +112,7 @@ def marched(
         if first and friction is not None:
             power = friction(modes)
         first = False
-        steps = [length] if friction is None else _steps(begins - since, length, shortest, grows=grows)
+        steps = [length] if friction is None else _steps(begins, length, shortest, grows=grows)
         for step in steps:
             key = at, float(f"{step:.12g}")
             if key not in kept:

@@ -360,3 +360,8 @@ def _data(part: Any) -> Any:
     if isinstance(part, str | bool | int | None):
         return part
     return [_data(each) for each in part]
+
+
+def sentence(words: str) -> str:
+    """Words with a capital at their beginning."""
+    return f"{words[:1].upper()}{words[1:]}"

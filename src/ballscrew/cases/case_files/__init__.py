@@ -1,1 +1,1 @@
-"""Case files: schema, fields, units, catalogue rows, overrides."""
+"""Case files: read, changed by settings, built into a model, a screw, an oil and an operating point."""

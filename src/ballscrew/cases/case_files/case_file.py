@@ -71,7 +71,12 @@ def read(path: str | Path) -> dict[str, Any]:
     Raises :class:`~ballscrew.basis.errors.InputError` if it is none, and for a project of several designs without a
     name.
     """
-    return project.design_at(path)
+    result = project.read(path)
+    if len(result) > 1:
+        names = ", ".join(design.name for design in result)
+        remedy = f'name one: "{path}#{result[0].name}"; ballscrew compare takes them all'
+        raise InputError(Fault(str(path), "is a project of several designs", names, remedy))
+    return dict(result[0].tables)
 
 
 def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:

@@ -112,16 +112,6 @@ def read(path: str | Path) -> list[Design]:
     return named
 
 
-def design_at(path: str | Path) -> dict[str, Any]:
-    """The tables of a case file, or of the one design that a path names. Raises ``InputError``."""
-    result = read(path)
-    if len(result) > 1:
-        names = ", ".join(design.name for design in result)
-        remedy = f'name one: "{path}#{result[0].name}"; ballscrew compare takes them all'
-        raise InputError(Fault(str(path), "is a project of several designs", names, remedy))
-    return dict(result[0].tables)
-
-
 def file_of(path: str | Path) -> Path:
     """The file of a case, also of the design that ``project.toml#name`` names."""
     return _parts(path)[0]

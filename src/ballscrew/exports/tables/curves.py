@@ -74,13 +74,12 @@ def options_of_case(case: Case) -> dict[str, float]:
     return {"load": float(case.operation.axial_load)}
 
 
-def friction_curve(job: HandOver, count: int, slowest: float | None = None) -> FrictionCurve:
+def friction_curve(job: HandOver, count: int) -> FrictionCurve:
     """The curve of at most ``count`` nodes with the least worst error, as a share of the friction.
 
-    The curve is that of the greater friction of both directions, which most nuts have alike; the error counts both. The
-    first node is the ``slowest`` speed; below it the friction of it counts. Without one it is a ten-thousandth of the
-    range. Raises :class:`~ballscrew.basis.errors.InputError` for a load beyond the range, and where there is no
-    friction.
+    The curve is that of the greater friction of both directions, which most nuts have alike; the error counts both.
+    The first node is a ten-thousandth of the range; below it the friction of it counts. Raises
+    :class:`~ballscrew.basis.errors.InputError` for a load beyond the range, and where there is no friction.
     """
     load, limits = float(job.options["load"]), job.working_range
     least, greatest = limits[OPERATION[0]]
@@ -90,10 +89,7 @@ def friction_curve(job: HandOver, count: int, slowest: float | None = None) -> F
     fixed = {entry.name: entry.value for entry in job.inputs if entry.name != OPERATION[1]} | {OPERATION[0]: load}
     fastest = max(map(abs, limits[OPERATION[1]]))
     job = _both_ways(job, fastest)
-    first = _SLOWEST * fastest if slowest is None else slowest
-    if not 0 < first < fastest:
-        problem = "must be positive and below the range of speeds"
-        raise refusal("slowest", problem, f"{first:g} rad/s", "give a smaller one")
+    first = _SLOWEST * fastest
     speeds = speed_candidates(first, fastest)
     friction = model_over(job, OPERATION[1:2], fixed)
     both = np.column_stack([friction(sign * speeds)[INTERPOLATED[0]] for sign in (1.0, -1.0)])

@@ -335,12 +335,12 @@ def nodes_within(chords: Floats, tolerance: float, kept: Sequence[int] = ()) -> 
     return _walk(chords, tolerance, _ends(len(chords), kept))
 
 
-def best_nodes(chords: Floats, count: int, kept: Sequence[int] = ()) -> list[int]:
+def best_nodes(chords: Floats, count: int) -> list[int]:
     """Indices of at most ``count`` nodes with the least worst error of straight lines between them.
 
-    The ends are nodes, and so are ``kept``: ``count`` is at least their number.
+    The ends are nodes: ``count`` is at least two.
     """
-    ends = _ends(len(chords), kept)
+    ends = _ends(len(chords), ())
     tolerances = np.unique(chords[np.triu_indices(len(chords), 1)])
     low, high = 0, len(tolerances) - 1
     while low < high:  # the least tolerance that is met

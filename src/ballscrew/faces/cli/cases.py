@@ -167,7 +167,7 @@ def _check_band(is_named: bool, options: BandOptions, to: Path | None, self_heat
 def _band(case: Case, options: BandOptions, done: Done, *, has_picture: bool) -> Answer:
     """The band of a case."""
     from ballscrew.questions.band import compute
-    from ballscrew.questions.band.document import document
+    from ballscrew.questions.band.answer import document
     from ballscrew.questions.band.sheet import sheet, tornado
     from ballscrew.questions.run.compute import run
 
@@ -182,8 +182,8 @@ def _band(case: Case, options: BandOptions, done: Done, *, has_picture: bool) ->
 def _warm_band(case: Case, options: BandOptions, done: Done) -> Answer:
     """The band of a case as warm as it makes itself: temperature and preload by samples of its surroundings."""
     from ballscrew.questions.band import compute
+    from ballscrew.questions.band.answer import document
     from ballscrew.questions.band.compute import heat_samples
-    from ballscrew.questions.band.document import document
     from ballscrew.questions.band.sheet import sheet
     from ballscrew.questions.run.compute import run
     from ballscrew.questions.warm_up.self_heating import self_heating

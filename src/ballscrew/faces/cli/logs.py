@@ -155,7 +155,7 @@ def _fit_torques(
         steady = steady_log(case, log, options, done)
         # solvers are slow to import: only for a log that can be fitted to
         from ballscrew.questions.fit import compute
-        from ballscrew.questions.fit.document import document
+        from ballscrew.questions.fit.answer import document
         from ballscrew.questions.fit.sheet import sheet
 
         assumed: Sequence[str] = ()
@@ -265,7 +265,7 @@ def _fit_rows(
     from ballscrew.cases.case_files import fitted_case
     from ballscrew.faces.sheets import files
     from ballscrew.questions.fit import rows as fit_rows
-    from ballscrew.questions.fit.document import document
+    from ballscrew.questions.fit.answer import document
     from ballscrew.questions.fit.log import read_options
     from ballscrew.questions.fit.sheet import of_rows
 
@@ -402,7 +402,7 @@ def validate(
     from ballscrew.questions.shared import charts
     from ballscrew.questions.validate import compute
     from ballscrew.questions.validate import sheet as sheets
-    from ballscrew.questions.validate.document import documents
+    from ballscrew.questions.validate.answer import documents
 
     request = compute.request(
         sets or [],

@@ -81,7 +81,7 @@ def hand_over(
 ) -> None:
     """Write the model for a simulator, a robot or a control. Its range and its worst error come with it."""
     from ballscrew.exports import hand_over
-    from ballscrew.questions.hand_over import document
+    from ballscrew.questions.hand_over import answer
 
     hand_over.check_target(to)
     loaded = case_options.load(case)
@@ -89,9 +89,7 @@ def hand_over(
     with progress("hand-over"):
         export = hand_over.of_case(loaded, to, request)
     files = export.write(out)
-    print_answer(
-        lambda: document.text(export, files), lambda: document.document(export, loaded, files), as_json=as_json
-    )
+    print_answer(lambda: answer.text(export, files), lambda: answer.document(export, loaded, files), as_json=as_json)
 
 
 def compensation(
@@ -120,7 +118,8 @@ def compensation(
         raise InputError(Fault(_TO, "unknown control", to, nearest(to, LISTS)))
     answer.check(options)
     check_writable("--out", out)
-    loaded = compute.load(case, case_options.settings, case_options.model, allow_code=case_options.allow_code)
+    tables = case_options.tables(case)
+    loaded = case_options.build(tables, case.parent, moves=compute.moves(tables))
     warmed_up = compute.warmed_up(loaded, options.hours)
     result = answer.position_compensation(
         warmed_up,

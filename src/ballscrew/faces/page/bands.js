@@ -129,7 +129,7 @@ function centralOf(question, name) {
  * @param {{ unit: number, first: number[], turns: number[][] }} numbers
  * @param {number} count
  */
-export function sharesOf({ unit, first, turns }, count) {
+function sharesOf({ unit, first, turns }, count) {
   const least = unit / 4; // there are no quantiles at 0 and 1
   return first.map((begin, input) => {
     const found = new Float64Array(count);

@@ -369,7 +369,7 @@ function redrawAll(palette, size) {
 }
 
 /** Draw all charts on paper, those that nobody has seen as well. */
-export function drawOnPaper() {
+function drawOnPaper() {
   redrawAll(() => PAPER, ON_PAPER);
 }
 

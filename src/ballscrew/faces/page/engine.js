@@ -151,7 +151,7 @@ function inputOf(values, name) {
  * @param {number} count
  * @returns {Found}
  */
-export function evaluateByBall(kernel, solver, parts, values, count) {
+function evaluateByBall(kernel, solver, parts, values, count) {
   const { ball, behind, points } = parts;
   const loads = loadsOf(kernel, solver, parts, values, count);
   const ofPoints = { ...values, ...loads.ofNut };

@@ -3,6 +3,7 @@
 import { element } from "./dom.js";
 import { symbol } from "./symbols.js";
 import * as units from "./units.js";
+import { vocabulary } from "./vocabulary.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {import("./state.js").FrozenState} State */
@@ -40,9 +41,6 @@ const LABELS = {
   starts: "thread starts",
   young_modulus: "Young's modulus",
 };
-/** Units that are displayed only where inches are chosen. */
-const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF", "in/min"];
-
 /** @param {string} name */
 export function words(name) {
   return name.replaceAll("_", " ");
@@ -119,7 +117,7 @@ function unitOf(path, node, value, state) {
   if (chosen && units.choicesOf(node).includes(chosen)) return chosen;
   const usual = node["x-unit"] ?? "";
   const typed = units.parse(value ?? "", node["x-si-unit"])?.unit ?? usual;
-  if (units.currentSystem() === "metric") return INCH_ONLY.includes(typed) ? usual : typed;
+  if (units.currentSystem() === "metric") return Object.values(vocabulary.systems.inch).includes(typed) ? usual : typed;
   return units.inSystem(typed);
 }
 

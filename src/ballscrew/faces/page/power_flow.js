@@ -27,7 +27,7 @@ const APART = 1e-3;
  * @param {Run} answer
  * @returns {Balance | undefined}
  */
-export function balanceOf(answer) {
+function balanceOf(answer) {
   const { ideal_torque: ideal, contributions } = answer.results;
   const { screw_speed: speed } = operationOf(answer);
   const torques = Object.entries(contributions);

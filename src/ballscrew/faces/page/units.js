@@ -265,7 +265,7 @@ export function heading(name, words) {
 /** What the server says of a number beside its value. @typedef {{ unit: string, shown_in: string }} Quantity */
 
 /** The metric unit in which a number is shown; that of its value where the page cannot convert it. @param {Quantity} quantity */
-export function metricOf({ unit, shown_in: metric }) {
+function metricOf({ unit, shown_in: metric }) {
   return choices(unit).some((one) => one.unit === metric) ? metric : unit;
 }
 

@@ -22,17 +22,7 @@ from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.curves import Curves, curves
 from ballscrew.faces.report.drawing import drawing
 from ballscrew.faces.sheets import report_blocks
-from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
-from ballscrew.questions.band import compute, sheet
-from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.band.sheet import tornado
-from ballscrew.questions.check.compute import Checked, checked
-from ballscrew.questions.check.sheet import unlisted_ratings
-from ballscrew.questions.duty.compute import DutyReport, duty
-from ballscrew.questions.run import sheet as run_sheet
-from ballscrew.questions.run.compute import Run, run
-from ballscrew.questions.shared.check_lines import check_table
-from ballscrew.questions.shared.report_blocks import (
+from ballscrew.faces.sheets.report_blocks import (
     Block,
     Bullets,
     Columns,
@@ -44,6 +34,16 @@ from ballscrew.questions.shared.report_blocks import (
     Table,
     sentence,
 )
+from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
+from ballscrew.questions.band import compute, sheet
+from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.band.sheet import tornado
+from ballscrew.questions.check.compute import Checked, checked
+from ballscrew.questions.check.sheet import unlisted_ratings
+from ballscrew.questions.duty.compute import DutyReport, duty
+from ballscrew.questions.run import sheet as run_sheet
+from ballscrew.questions.run.compute import Run, run
+from ballscrew.questions.shared.check_lines import check_table
 
 if TYPE_CHECKING:
     from ballscrew.questions.duty.band import DutyBandReport

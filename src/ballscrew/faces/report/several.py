@@ -15,6 +15,16 @@ from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.report import contents, input_tables
 from ballscrew.faces.report.contents import ALL, Done
 from ballscrew.faces.sheets import report_blocks
+from ballscrew.faces.sheets.report_blocks import (
+    Block,
+    Columns,
+    Links,
+    Paragraph,
+    Report,
+    Section,
+    Table,
+    sentence,
+)
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import sheet
@@ -26,16 +36,6 @@ from ballscrew.questions.compare_designs import answer
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.run.sheet import meaning
 from ballscrew.questions.shared import check_lines
-from ballscrew.questions.shared.report_blocks import (
-    Block,
-    Columns,
-    Links,
-    Paragraph,
-    Report,
-    Section,
-    Table,
-    sentence,
-)
 
 #: Pages at most of what is side by side, and of each design.
 _PAGES, _PAGES_OF_EACH = 2, 2

@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 from ballscrew.basis.version import __version__
 from ballscrew.evidence.validation.entries import Entry, fitted_rows, may_be_fitted
 from ballscrew.faces.sheets import report_blocks
+from ballscrew.faces.sheets.report_blocks import Bullets, Paragraph, Picture, Report, Section, Table
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import named, svg_of
-from ballscrew.questions.shared.report_blocks import Bullets, Paragraph, Picture, Report, Section, Table
 from ballscrew.questions.validate import sheet
 from ballscrew.questions.validate.compute import Request
 from ballscrew.questions.validate.sheet import CALIBRATION, MODEL, RULE, SummaryRow

@@ -14,10 +14,23 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ballscrew.basis import units
-from ballscrew.basis.output.sheet import Axis, Band, Bar, Bars, Chart, Colour, Curve, Level, Lines, Map, Sheet, Vertical
+from ballscrew.basis.output.sheet import (
+    Axis,
+    Band,
+    Bar,
+    Bars,
+    Chart,
+    Colour,
+    Curve,
+    Level,
+    Lines,
+    Map,
+    Sheet,
+    Vertical,
+    sentence,
+)
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import SHADES
-from ballscrew.questions.shared.report_blocks import sentence
 
 _STYLES: Mapping[str, Mapping[str, Any]] = {
     "line": {"linewidth": 1.2},

@@ -62,12 +62,13 @@ from ballscrew.faces.web.endpoint_parts import (
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.physics.sizing import catalogue as shipped
-from ballscrew.questions.band import compute, document
+from ballscrew.questions.band import compute
+from ballscrew.questions.band.answer import Band
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.catalogue import answer, text
 from ballscrew.questions.check.compute import Checks, with_nut_named
-from ballscrew.questions.fit.document import Examples
-from ballscrew.questions.hand_over.document import Targets, targets
+from ballscrew.questions.fit.answer import Examples
+from ballscrew.questions.hand_over.answer import Targets, targets
 from ballscrew.questions.optimise import need_schema
 from ballscrew.questions.run import response
 from ballscrew.questions.shared import answer_parts, option_values
@@ -76,9 +77,9 @@ from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep.answer import Sweep
 from ballscrew.questions.sweep.band import INNER, with_band
 from ballscrew.questions.sweep.options import SweepOptions
+from ballscrew.questions.validate import answer as validation_documents
 from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate import document as validation_documents
-from ballscrew.questions.validate.document import ValidationEntry
+from ballscrew.questions.validate.answer import ValidationEntry
 
 #: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
@@ -148,7 +149,7 @@ async def sweep(request: Request) -> Response:
     return await heavy(request, work)
 
 
-@post(router, "/band", BandBody, document.Band)
+@post(router, "/band", BandBody, Band)
 def band(body: CaseBody, done: Deadline) -> Response:
     """The band of a case and its causes: the document of ``ballscrew run --band --json``, with sentences."""
     options, case = option_values.read(BandOptions, dict(body)), case_of(body.case)

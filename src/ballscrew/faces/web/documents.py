@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
-from ballscrew.questions.band import document
+from ballscrew.questions.band import answer as band_documents
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.sheet import input_counts
 from ballscrew.questions.check import compute as check_documents
@@ -69,9 +69,9 @@ def drawing(result: compute.Run) -> dict[str, Any]:
 def band(case: Case, band_report: BandReport) -> dict[str, Any]:
     """The document of a band, and its sentences."""
     return {
-        **document.document(compute.run(case), band_report),
+        **band_documents.document(compute.run(case), band_report),
         "words": {
-            "sentences": [verdict.text for verdict in document.verdicts(case, band_report)],
+            "sentences": [verdict.text for verdict in band_documents.verdicts(case, band_report)],
             "inputs": input_counts(band_report),
         },
     }

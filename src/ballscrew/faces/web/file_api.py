@@ -43,14 +43,13 @@ from ballscrew.faces.web.endpoint_parts import always, as_json, heavy, post, wit
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.files.torque_logs.preview import preview
-from ballscrew.questions.fit import compute, document
-from ballscrew.questions.fit import document as fit_documents
-from ballscrew.questions.fit.document import Fit
+from ballscrew.questions.fit import answer, compute
+from ballscrew.questions.fit.answer import Fit
 from ballscrew.questions.fit.log import read_options, steady_log
 from ballscrew.questions.fit.sheet import sheet
 from ballscrew.questions.fit_motion.log import is_moving
-from ballscrew.questions.hand_over import document as hand_over_documents
-from ballscrew.questions.hand_over.document import HandOver, blocks, lines
+from ballscrew.questions.hand_over import answer as hand_over_documents
+from ballscrew.questions.hand_over.answer import HandOver, blocks, lines
 from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.shared import file_answer, option_values
 
@@ -95,14 +94,14 @@ async def project(
     return await heavy(request, work)
 
 
-@post(router, "/log", LogBody, document.Log)
+@post(router, "/log", LogBody, answer.Log)
 def log(body: LogBody, _: Deadline) -> Response:
     """The columns of a log and what each is taken for, and the numbers of the case that may be fitted to it."""
     case = case_of(body.case)
     with written({"log": body.log}) as paths:
         moving = is_moving(paths["log"], body.columns)
         columns = preview(paths["log"], body.columns)
-    return as_json(document.columns_document(columns, compute.candidates(case), moving=moving))
+    return as_json(answer.columns_document(columns, compute.candidates(case), moving=moving))
 
 
 @post(router, "/fit", FitBody, Fit)
@@ -123,7 +122,7 @@ def fit(body: LogBody, done: Deadline) -> Response:
     report = dataclasses.replace(compute.fit(case, steady, options, done), assumed=assumed)
     calibrated = fitted_case.text_of(body.case, case, report.model)
     document = {
-        **fit_documents.document(case, report),
+        **answer.document(case, report),
         "calibrated": {"toml": calibrated, "case": tomllib.loads(calibrated)},
     }
     return with_sheet(document, sheet(case, report))

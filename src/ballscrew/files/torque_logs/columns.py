@@ -83,7 +83,6 @@ _HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwe
 #: Words beside a temperature that is taken as that of the oil; where there are several, one must be chosen.
 _PLACES = ("oil", "nut", "screw", "Öl", "Mutter", "Spindel")
 TEMPERATURE, LOAD = "temperature", "axial_load"
-#: The note on a log without a column of the load.
 
 
 def columns_not_used(names: Iterable[str]) -> str:

@@ -245,30 +245,6 @@ def _half_steps(ball: _Ball, stroke: Angle) -> int:
     return max(math.ceil(stroke / 2 * ball.contacts.rolled / ball.contacts.cell), _FEWEST_STEPS)
 
 
-def step_count(
-    model: FrictionModel,
-    screw: BallScrew,
-    lubricant: Lubricant,
-    *,
-    axial_load: Force,
-    screw_speed: AngularSpeed,
-    travel: Length | None = None,
-    gap: Ratio = GAP,
-    strokes: Sequence[Angle] = (),
-) -> int:
-    """Steps that the contacts of all balls take in a :func:`reversal` and the loops of ``strokes``: its time grows so.
-
-    The parts of the first cells are counted as whole ones. Raises
-    :class:`~ballscrew.basis.errors.InputError` as the reversal does.
-    """
-    raise_if_any(_faults(model, screw, {"axial_load": axial_load, "screw_speed": screw_speed}, travel, gap))
-    operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
-    start = _start(model, screw, lubricant, operation, travel, gap)
-    cells = [ball.contacts.cell / ball.contacts.rolled for ball in start.balls]
-    swings = sum(5 * _half_steps(ball, stroke) for ball in start.balls for stroke in strokes)
-    return swings + sum(math.ceil(start.whole / cell) + math.ceil(min(start.end, start.whole) / cell) for cell in cells)
-
-
 def _start(
     model: FrictionModel,
     screw: BallScrew,

@@ -12,16 +12,16 @@ from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OffsetLeadN
 from ballscrew.physics.laws.nut_losses import Seals
 from ballscrew.physics.sizing.ratings import Rated, ratings_of
 
-#: The names of the kinds of nut stand here and nowhere else.
+#: The kinds of nut by their names.
 NUTS: Mapping[str, type[Nut]] = {
     "single": SingleNut,
     "oversize-balls": OversizeBallNut,
     "double": DoubleNut,
     "offset-lead": OffsetLeadNut,
 }
-#: Those that may have a preload.
 #: A share below this is one that a spreadsheet shows in per cent, read as per cent again: vendors have 2 to 10 %.
 SMALLEST_SHARE = 0.002
+#: Those that may have a preload.
 PRELOADED = tuple(name for name, kind in NUTS.items() if "preload" in fields_of(kind))
 
 

@@ -25,6 +25,7 @@ from ballscrew.basis.output.sheet import (
     Table,
     Vertical,
     lines,
+    sentence,
     verdict_lines,
     warning_lines,
     words,
@@ -41,10 +42,9 @@ from ballscrew.engine.uncertainty.bands import BandCurve, Interval, OutputBand
 from ballscrew.engine.uncertainty.sensitivity import Swing, one_at_a_time
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.band.answer import verdicts, warnings
 from ballscrew.questions.band.compute import BandReport
-from ballscrew.questions.band.document import verdicts, warnings
 from ballscrew.questions.run.compute import Run
-from ballscrew.questions.shared.report_blocks import sentence
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -74,10 +74,8 @@ MOST_STATES = 2000
 _SCREW_TORQUE = Info("M_S", "largest friction torque of the screw in the cycle")
 #: The efficiency of the rule of catalogues where the case has a model: that of their worked examples (THK514E).
 RULE_EFFICIENCY = 0.9
-#: The checks of one operating point that are of speeds and largest loads; those of life are of the whole cycle.
-_OF_EXTREMES = (
-    "static_safety", "contact_pressure", "shaft_stress", "buckling", "critical_speed", "diameter_speed_product",
-)  # fmt: skip
+#: The checks of one operating point that are of the whole cycle here; the others are of speeds and largest loads.
+_OF_CYCLE = ("life", "running_time")
 #: Parts of the energy that are rounding, as a share of what is drawn, and loads, as one of the largest.
 _LEAST = 1e-12
 #: A load in a recorded motion that is noise, as a share of the largest.
@@ -560,7 +558,7 @@ class DutyReport(CycleNumbers):
             limits=case.limits,
             speed_limit=speed_limit_of(case.row),
         )
-        return [check for check in result if check.name in _OF_EXTREMES]
+        return [check for check in result if check.name not in _OF_CYCLE]
 
     @property
     def _of_life(self) -> Sequence[Check]:

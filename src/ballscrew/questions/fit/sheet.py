@@ -46,8 +46,8 @@ from ballscrew.evidence.calibration.next_test import NextTest
 from ballscrew.evidence.calibration.problem import TORQUE_WANDER
 from ballscrew.files.torque_logs.log_rows import quantities
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.fit.answer import results
 from ballscrew.questions.fit.compute import FitReport
-from ballscrew.questions.fit.document import results
 from ballscrew.questions.fit.log import CONDITIONS
 from ballscrew.questions.shared.declared import cells
 from ballscrew.questions.shared.log_points import Numbers, some

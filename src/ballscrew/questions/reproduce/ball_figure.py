@@ -106,14 +106,14 @@ def _scene(panel: Axes) -> None:
     panel.add_patch(Circle((0, 0), 1.0, facecolor="white", edgecolor=charts.INK, linewidth=1.3))
 
 
-def _arrow(panel: Axes, start: Sequence[float], end: Sequence[float], colour: str, head: float = 9.0) -> None:
+def _arrow(panel: Axes, start: Sequence[float], end: Sequence[float], colour: str) -> None:
     length = math.hypot(end[0] - start[0], end[1] - start[1])
     panel.add_patch(
         FancyArrowPatch(
             (start[0], start[1]),
             (end[0], end[1]),
             arrowstyle="-|>",
-            mutation_scale=head if length > 0.15 else head * 0.6,
+            mutation_scale=9.0 if length > 0.15 else 5.4,
             shrinkA=0,
             shrinkB=0,
             linewidth=2.2,

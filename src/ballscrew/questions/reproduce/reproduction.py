@@ -21,11 +21,11 @@ import numpy as np
 
 from ballscrew.basis.atomic_files import write_error
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.output.sheet import sentence
 from ballscrew.basis.references import paper_equations
 from ballscrew.basis.version import __version__
 from ballscrew.evidence.papers import olaru2005
 from ballscrew.questions.reproduce import preloaded_nut
-from ballscrew.questions.shared.report_blocks import sentence
 from ballscrew.questions.shared.text_tables import markdown_table
 
 Report = Callable[[str, int, int], None]

@@ -21,7 +21,7 @@ from ballscrew.questions.duty import verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport, FullBath
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select.candidates import Candidate
-from ballscrew.questions.select.compute import Plan, Ranked, Selection
+from ballscrew.questions.select.compute import Ranked, Selection
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import OBJECTIVES, Requirements
 from ballscrew.questions.shared import declared
@@ -227,11 +227,6 @@ def document(selection: Selection, listed: Sequence[Ranked] | None = None) -> di
         },
         "provenance": inputs.of_case(selection.ranked[0].candidate.case) if selection.ranked else None,
     }
-
-
-def plan_document(plan: Plan) -> dict[str, Any]:
-    """What a selection would do, before it is done."""
-    return declared.document(plan)
 
 
 def row_document(result: Candidate) -> dict[str, Any]:

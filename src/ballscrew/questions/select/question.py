@@ -84,12 +84,14 @@ def _prepare(request: Request) -> Work:
 
 
 def _plan(request: Request) -> Any:
-    from ballscrew.questions.select.answer import plan_document
     from ballscrew.questions.select.compute import plan
+    from ballscrew.questions.shared import declared
 
     options, table = request.options(SelectOptions), request.options(TableOptions)
     assert request.need is not None
-    return plan_document(plan(request.need, rows=table.rows, words=options.words or None, keep_going=table.keep_going))
+    return declared.document(
+        plan(request.need, rows=table.rows, words=options.words or None, keep_going=table.keep_going)
+    )
 
 
 def _is_case(path: Path) -> bool:

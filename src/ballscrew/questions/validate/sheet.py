@@ -31,8 +31,8 @@ from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.rules import DRAG_RULES, RULES
+from ballscrew.questions.validate.answer import warnings
 from ballscrew.questions.validate.compute import Request, entries_of
-from ballscrew.questions.validate.document import warnings
 
 #: What the rows of the table are of.
 MODEL, CALIBRATION, RULE = "model", "calibration", "rule"

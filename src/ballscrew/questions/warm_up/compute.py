@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -34,7 +33,6 @@ from ballscrew.basis.quantities import (
     Unit,
     fields_of,
 )
-from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import Lubricant
 
@@ -274,12 +272,6 @@ def drift_cycle(case: Case, share: float = FEED_SHARE) -> Case:
 def moves(tables: Mapping[str, Any]) -> bool:
     """True of the tables of a case whose motion counts, and not its operating point."""
     return "motion" in tables or "axis" in tables
-
-
-def load(path: str | Path, settings: Sequence[str], model: str | None, *, allow_code: bool = False) -> Case:
-    """The case of a file; its motion counts where it has one, or else its operating point."""
-    tables = case_file.override(case_file.read(path), settings)
-    return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves(tables))
 
 
 def check_oil(case: Case) -> None:
