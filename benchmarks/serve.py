@@ -67,7 +67,7 @@ def case_number(i: int) -> dict[str, Any]:
 
 def moved(i: int) -> dict[str, Any]:
     """A moving axis that nobody has asked for before."""
-    mounted = {"unsupported_length": "1 m", "ends": "fixed-supported"}
+    mounted = {"unsupported_length": "1.2 m", "ends": "fixed-supported"}
     return {**MOVED, "installation": mounted, "axis": {**MOVED["axis"], "mass": f"{100 + i % 900} kg"}}
 
 
