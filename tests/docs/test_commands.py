@@ -16,6 +16,8 @@ from pathlib import Path
 
 import pytest
 
+from ballscrew.questions.reproduce.preloaded_nut import CASE, CASE_FILE
+
 from .pages import ROOT, blocks, commands, name, pages
 
 pytestmark = pytest.mark.slow
@@ -88,6 +90,7 @@ def place(tmp_path):
     """A folder with what a reader has: the examples, the pages, and the program where the pages say that it is."""
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     shutil.copy(ROOT / "README.md", tmp_path)
+    (tmp_path / CASE_FILE).write_text(CASE, encoding="utf-8")  # what ballscrew reproduce writes beside its page
     (tmp_path / ".venv").symlink_to(Path(sys.executable).parents[1], target_is_directory=True)
     return tmp_path
 

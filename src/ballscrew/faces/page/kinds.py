@@ -77,13 +77,6 @@ def start_tables() -> Mapping[str, Mapping[str, Any]]:
     }
 
 
-def kind_of_start(name: str) -> str:
-    """The kind of nut that a start begins with."""
-    case = _start_cases()[name]
-    begun = Kind(case.get("nut", {}).get("type", ""), elastic="bodies" in case)
-    return next(k for k, kind in KINDS.items() if (kind.nut, kind.elastic) == (begun.nut, begun.elastic))
-
-
 def tables_of(start: str, model: str, kind: str) -> dict[str, Any]:
     """The tables of a case: a start, with a model and a kind of nut."""
     chosen = KINDS[kind]

@@ -1,4 +1,4 @@
-"""The documents of a duty, without and with its bands; results, units and schema are those of its report (``compute``)."""
+"""The documents of a duty, without and with its bands; results, units and schema are those of ``compute``."""
 
 from __future__ import annotations
 
