@@ -25,9 +25,9 @@ def ids(found):
 
 def test_the_make_of_the_row_chooses():
     found = case("by-make")
-    assert found.calibration.name == "rexroth-2006"
+    assert found.origins.calibration.name == "rexroth-2006"
     assert found.model == case("rexroth-2006").model
-    assert case().calibration is None  # never unless asked
+    assert case().origins.calibration is None  # never unless asked
 
 
 def test_makers_by_any_capitals():

@@ -215,7 +215,7 @@ def test_a_case_is_the_screw_of_the_row(row, tmp_path):
             assert found == pytest.approx(expected, rel=1e-12), field.name
     assert case.operation.axial_load == pytest.approx(row.dynamic_load_rating / 10, rel=1e-5)
     assert case.operation.screw_speed == pytest.approx(20 * math.pi)
-    assert case.oil == {"grade": "ISO VG 100", "temperature": pytest.approx(313.15)}
+    assert case.origins.oil == {"grade": "ISO VG 100", "temperature": pytest.approx(313.15)}
 
 
 def test_a_case_runs(ballscrew, tmp_path):

@@ -5,6 +5,7 @@ import dataclasses
 import pytest
 
 from ballscrew.cases.case_files import case_file, descriptions
+from ballscrew.cases.case_files.case import NO_ORIGINS
 from ballscrew.cases.case_files.makers_rules import by_rules, subject_of
 from ballscrew.questions.run import compute
 from ballscrew.questions.run.compute import run
@@ -20,7 +21,8 @@ def case():
 
 def of_make(case, make):
     """The case with the make of its row changed; None has no row."""
-    return dataclasses.replace(case, row=None if make is None else dataclasses.replace(case.row, make=make))
+    row = None if make is None else dataclasses.replace(case.origins.row, make=make)
+    return dataclasses.replace(case, origins=dataclasses.replace(case.origins, row=row))
 
 
 @pytest.mark.parametrize(("make", "first"), [("THK", "jis"), ("HIWIN", "hiwin"), ("Rexroth", "rexroth")])
@@ -48,7 +50,7 @@ def test_the_nominal_diameter_is_that_of_the_row(case):
     """Without a row the pitch circle stands for it."""
     wide = case_file.load(EXAMPLE, ["screw.pitch_circle_diameter=41.75 mm"])
     assert subject_of(wide)[:2] == (0.040, pytest.approx(0.04175))
-    assert subject_of(dataclasses.replace(wide, row=None))[0] == pytest.approx(0.04175)
+    assert subject_of(dataclasses.replace(wide, origins=NO_ORIGINS))[0] == pytest.approx(0.04175)
     assert subject_of(case).oversize_balls is False
     assert subject_of(case_file.load(EXAMPLE, ["nut.type=oversize-balls"])).oversize_balls is True
 

@@ -57,14 +57,14 @@ def faults_of(**sections):
 def test_a_row_is_the_screw_and_what_is_given_wins():
     case = case_file.build(tables())
     assert case.nut is None  # without a nut, everything is as it was
-    assert case.row is ROW
-    assert case.listed == {"dynamic_load_rating": 72100, "static_load_rating": 132200}
+    assert case.origins.row is ROW
+    assert case.origins.listed == {"dynamic_load_rating": 72100, "static_load_rating": 132200}
     assert (case.screw.ball_diameter, case.screw.loaded_balls) == (0.006, ROW.loaded_balls)
     given = {"catalogue": ROW.name.upper(), "screw_conformity": 0.52, "root_diameter": "34 mm"}
     changed = case_file.build(tables(screw={**given, "ball_material": {"young_modulus": "300 GPa"}}))
     assert (changed.screw.screw_conformity, changed.screw.nut_conformity) == (0.52, 0.54)
     assert changed.screw.ball_material.young_modulus == pytest.approx(300e9)
-    assert changed.listed["root_diameter"] == pytest.approx(0.034)
+    assert changed.origins.listed["root_diameter"] == pytest.approx(0.034)
     assert inputs(case)["screw"]["catalogue"] == ROW.name
 
 
@@ -84,7 +84,9 @@ def test_a_preload_in_percent_is_of_the_dynamic_rating():
     case = case_file.build(tables(nut={"preload": "7 %"}))
     assert isinstance(case.nut, bs.DoubleNut)  # the row's kind
     assert case.nut.preload == pytest.approx(0.07 * 72100)
-    assert tuple(map(str, case.notes)) == ("preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed",)
+    assert tuple(map(str, case.origins.notes)) == (
+        "preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed",
+    )
     given = case_file.build(
         tables(screw={"catalogue": ROW.name, "dynamic_load_rating": "50 kN"}, nut={"preload": "7 %"})
     )
@@ -96,7 +98,7 @@ def test_without_a_rating_it_is_that_of_the_geometry():
     case = case_file.build({**drive, "nut": {"type": "double", "preload": "10%"}})
     like = bs.catalogue()["hiwin-40-20k4"]  # the same balls and as many a turn; another lead
     assert case.nut.preload == pytest.approx(0.1 * ratings_of(like).dynamic, rel=0.05)
-    assert "computed from the geometry (ISO 3408-5)" in str(case.notes[0])
+    assert "computed from the geometry (ISO 3408-5)" in str(case.origins.notes[0])
     drive["screw"]["loaded_balls"] = 10_000
     with pytest.raises(InputError, match=r"nut\.preload: is a share of a dynamic load rating that is not known"):
         case_file.build({**drive, "nut": {"type": "double", "preload": "10 %"}})
@@ -175,7 +177,7 @@ def test_rows_of_a_file_beside_the_case(tmp_path):
     )
     case = case_file.load(tmp_path / "case.toml", ["nut.type=double"])
     assert case.screw.ball_diameter == pytest.approx(6.35e-3)
-    assert "computed from the geometry" in str(case.notes[0])
+    assert "computed from the geometry" in str(case.origins.notes[0])
 
 
 # -- what is wrong with it ------------------------------------------------------------------------

@@ -40,14 +40,14 @@ def test_a_speed_goes_by_its_unit(speed, rpm):
 def test_it_follows_the_lead_and_so_does_its_spread():
     case = built("12 ± 1 m/min", lead="20 mm")
     assert float(case.operation.screw_speed) == pytest.approx(600 * RPM)
-    spread = case.uncertain["screw_speed"]
+    spread = case.origins.uncertain["screw_speed"]
     assert isinstance(spread, Normal)
     assert (spread.mean, spread.deviation) == pytest.approx((600 * RPM, 50 * RPM / NORMAL_95))
 
 
 @pytest.mark.parametrize("speed", ["12 m/min ± 5 %", "12 m/min +/- 5 %", "12 m/min ± 0,6 m/min", "(12 ± 0.6) m/min"])
 def test_its_spread_may_be_written_after_its_unit(speed):
-    spread = built(speed, lead="20 mm").uncertain["screw_speed"]
+    spread = built(speed, lead="20 mm").origins.uncertain["screw_speed"]
     assert isinstance(spread, Normal)
     assert (spread.mean, spread.deviation) == pytest.approx((600 * RPM, 30 * RPM / NORMAL_95))
 

@@ -46,7 +46,7 @@ def test_a_measured_density_counts_beside_a_data_sheet():
 def test_an_oil_by_its_name_and_what_is_changed_of_it():
     case = case_with({"oil": "arcanol load150", "temperature": "20 degC"})
     assert case.lubricant == bs.Lubricant.from_sheet(LIBRARY["Arcanol LOAD150"], 293.15)
-    assert case.oil["oil"] == "Arcanol LOAD150"
+    assert case.origins.oil["oil"] == "Arcanol LOAD150"
     other = case_with({"oil": "Arcanol LOAD150", "kinematic_viscosity_40": "150 cSt"}).lubricant
     assert other.kinematic_viscosity == pytest.approx(150e-6, rel=1e-12)
     assert other.sheet.kinematic_viscosity_100 == LIBRARY["Arcanol LOAD150"].kinematic_viscosity_100

@@ -38,7 +38,7 @@ def test_what_is_written_is_read_again(file):
     assert project.read(file) == DESIGNS
     assert opened(file).designs == DESIGNS
     assert case_file.read(f"{file}#Öl #2")["lubricant"] == {"grade": "ISO VG 150"}
-    assert case_file.load(f"{file}#as it is").row.name == "hiwin-40-20k4"
+    assert case_file.load(f"{file}#as it is").origins.row.name == "hiwin-40-20k4"
     for path, words in ((file, "several designs (as it is, Öl #2)"), (f"{file}#no", "has no such design (no)")):
         with pytest.raises(InputError) as error:
             case_file.read(path)

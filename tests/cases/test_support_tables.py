@@ -174,8 +174,8 @@ def test_numbers_that_friction_goes_with_may_have_a_distribution():
     )
     assert case.bearings["floating"].element.torque == pytest.approx(0.03)
     assert case.axis.guides.friction_coefficient == pytest.approx(0.003)
-    assert set(case.uncertain_supports) == {"bearings.floating.torque", "guides.friction_coefficient"}
-    assert case.uncertain_supports["guides.friction_coefficient"] == bs.Uniform(0.002, 0.004)
+    assert set(case.origins.uncertain_supports) == {"bearings.floating.torque", "guides.friction_coefficient"}
+    assert case.origins.uncertain_supports["guides.friction_coefficient"] == bs.Uniform(0.002, 0.004)
     assert "bearings.fixed.preload" in faults(BEARINGS, 'bearings.fixed.preload="2 ± 0.1 kN"')
 
 

@@ -10,6 +10,7 @@ import ballscrew as bs
 from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files import case_file, case_text, descriptions, fitted_case, inputs
+from ballscrew.cases.case_files.case import Origins
 from ballscrew.cases.schema import law_import
 from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.schema.option_faults import in_options
@@ -102,7 +103,7 @@ def test_seals_say_whose_torque_they_have():
     def said(torque, **fields):
         row = dataclasses.replace(ROW, seal_torque=0.2, **fields)
         nut = types.SimpleNamespace(losses={} if torque is None else {"seals": bs.Seals(torque)})
-        case = types.SimpleNamespace(row=row, screw=types.SimpleNamespace(nut=nut))
+        case = types.SimpleNamespace(origins=Origins(row=row), screw=types.SimpleNamespace(nut=nut))
         # one line of a text, which stands among many
         return descriptions._seals_of_row(case)
 
@@ -113,7 +114,8 @@ def test_seals_say_whose_torque_they_have():
     assert said(0.2) == []
     maker = seal_source("HIWIN")
     assert maker in said(0.2, seal_torque_source=maker, make="HIWIN")[0]
-    without_row = types.SimpleNamespace(row=None, screw=types.SimpleNamespace(nut=types.SimpleNamespace(losses={})))
+    bare = types.SimpleNamespace(nut=types.SimpleNamespace(losses={}))
+    without_row = types.SimpleNamespace(origins=Origins(), screw=bare)
     assert descriptions._seals_of_row(without_row) == []
 
 

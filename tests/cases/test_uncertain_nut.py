@@ -27,14 +27,14 @@ def loaded(tmp_path, preload="4326 N", seals="0.2 N m"):
 )
 def test_a_preload_has_a_distribution(tmp_path, written, half_width):
     case = loaded(tmp_path, preload=written)
-    found = case.uncertain["preload"]
+    found = case.origins.uncertain["preload"]
     assert found.mean == pytest.approx(case.screw.nut.preload, rel=1e-12)
     assert found.deviation * 1.959963984540054 == pytest.approx(half_width, rel=1e-12)
     assert all_of(case)["preload"].given
 
 
 def test_seals_have_a_distribution(tmp_path):
-    found = loaded(tmp_path, seals="0.2 ± 0.05 N m").uncertain["losses.seals.seal_torque"]
+    found = loaded(tmp_path, seals="0.2 ± 0.05 N m").origins.uncertain["losses.seals.seal_torque"]
     assert (found.mean, found.deviation) == pytest.approx((0.2, 0.05 / 1.959963984540054))
 
 

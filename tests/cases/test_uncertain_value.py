@@ -142,20 +142,20 @@ def test_a_case_keeps_central_values_and_distributions(example):
     assert case.screw.screw_conformity == 0.515
     assert case.operation.axial_load == 4000
     assert case.model.friction.decay == 1.42
-    assert set(case.uncertain) == {"screw_conformity", "axial_load", "friction.decay", "ball_to_ball_force"}
-    assert case.exact == {"nut_conformity"}
+    assert set(case.origins.uncertain) == {"screw_conformity", "axial_load", "friction.decay", "ball_to_ball_force"}
+    assert case.origins.exact == {"nut_conformity"}
     everything = uncertain_inputs.all_of(case)
     assert "nut_conformity" not in everything
     assert everything["friction.decay"].given
     assert everything["friction.exponent"].source == "judgement"
-    assert set(uncertain_inputs.all_of(case, only_given=True)) == set(case.uncertain)
+    assert set(uncertain_inputs.all_of(case, only_given=True)) == set(case.origins.uncertain)
 
 
 def test_a_temperature_beside_a_grade(example):
     oil = ["lubricant.temperature=40 degC ± 5 K"]
     drive = example.with_name("feed_drive.toml")
     case = case_file.load(drive, oil)
-    assert case.uncertain == {"temperature": Normal(313.15, 5 / Z)}
+    assert case.origins.uncertain == {"temperature": Normal(313.15, 5 / Z)}
     assert "viscosity" not in uncertain_inputs.all_of(case)
     exact = case_file.load(drive, ["lubricant.temperature=40 degC ± 0 K"])
     assert uncertain_inputs.all_of(exact)["viscosity"].source == "ISO3448"
@@ -173,8 +173,8 @@ def test_a_named_calibration_brings_its_errors(example):
 
 def test_a_case_without_distributions_has_none(example):
     case = case_file.load(example)
-    assert case.uncertain == {}
-    assert case.exact == frozenset()
+    assert case.origins.uncertain == {}
+    assert case.origins.exact == frozenset()
 
 
 def test_words():

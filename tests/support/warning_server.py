@@ -6,6 +6,6 @@ from ballscrew.faces.cli.main import main
 from ballscrew.faces.web import api
 
 if __name__ == "__main__":
-    chosen = api.rows.chosen
-    api.rows.chosen = lambda *arguments: (np.ones(1) / np.zeros(1), chosen(*arguments))[1]
+    chosen = api.chosen
+    api.chosen = lambda *arguments: (np.ones(1) / np.zeros(1), chosen(*arguments))[1]
     main()

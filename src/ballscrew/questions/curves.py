@@ -62,7 +62,7 @@ def _cold_and_hot(run: Run, load: float, speed: float) -> Curve | None:
     case = run.case
     if not case.lubricant.follows_temperature or not load or not speed:
         return None
-    now = case.oil.get("temperature")
+    now = case.origins.oil.get("temperature")
     temperatures = sorted({COLD, HOT, *([float(now)] if isinstance(now, float | int) else [])})
     vary = {"temperature": f"{', '.join(map(repr, temperatures))} K", "screw_speed": f"0, {speed!r} rad/s"}
     constant = getattr(case.model.inlet, "replenishment_constant", None)

@@ -53,7 +53,7 @@ def test_it_is_the_chain_of_the_parts(case):
         case.screw,
         installation=case.installation,
         positions=report.chain.position,
-        root_diameter=case.listed.get("root_diameter"),
+        root_diameter=case.origins.listed.get("root_diameter"),
         **case.sizes_of_nut(case.screw),
     )
     np.testing.assert_allclose(report.chain.total, expected.total, rtol=1e-12)

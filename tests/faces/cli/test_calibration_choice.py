@@ -69,10 +69,10 @@ def test_it_wins_over_the_file(written):
     as_written, other, without = (
         case_file.load(written, calibration=name) for name in (None, "rexroth-2006-rubbing", "none")
     )
-    assert as_written.calibration == calibration("rexroth-2006")
-    assert other.calibration == calibration("rexroth-2006-rubbing")
+    assert as_written.origins.calibration == calibration("rexroth-2006")
+    assert other.origins.calibration == calibration("rexroth-2006-rubbing")
     assert other.model.ball_force.share_of_load == calibration("rexroth-2006-rubbing").share_of_load
-    assert without.calibration is None
+    assert without.origins.calibration is None
     assert without.model == case_file.MODELS["reference"]
 
 
@@ -88,7 +88,7 @@ def test_a_fault_names_the_option(written):
 @pytest.mark.parametrize("name", [None, "none", "rexroth-2006-rubbing"])
 def test_every_answer_shows_the_ratio_of_the_rows_most_like_the_nut(written, name):
     case = case_file.load(written, calibration=name)
-    used = None if case.calibration is None else case.calibration.name
+    used = None if case.origins.calibration is None else case.origins.calibration.name
     near = near_rows(case.screw, used)
     answer = documents.run(run(case))
     assert answer["vendor_rows"] == {
@@ -109,7 +109,7 @@ def test_a_fit_writes_the_numbers_of_a_calibration_out(written):
     case = case_file.load(written)
     table = fitted_case.written_out(tomllib.loads(CALIBRATED)["model"], case)
     again = case_file.build({**case_file.read(written), "model": table})
-    assert again.calibration is None
+    assert again.origins.calibration is None
     assert again.model == case.model
     rubbing = case_file.load(written, ["model.friction=load-sharing"], calibration="rexroth-2006-rubbing")
     table = fitted_case.written_out({"friction": "load-sharing", "calibration": "rexroth-2006-rubbing"}, rubbing)

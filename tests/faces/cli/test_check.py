@@ -119,7 +119,7 @@ def test_what_is_given_counts():
     case = found.case
     assert (case.operation.axial_load, case.operation.screw_speed) == (10_000, pytest.approx(1000 * RPM))
     assert isinstance(found.nut.nut, bs.SingleNut)
-    assert case.oil["temperature"] == pytest.approx(323.15)
+    assert case.origins.oil["temperature"] == pytest.approx(323.15)
     assert found.check("critical_speed").holds is False
     assert "fails: buckling, critical speed" in found.verdict
     assumed = " ".join(found.assumed)
@@ -134,7 +134,7 @@ def test_the_life_of_a_preloaded_nut_names_its_rule():
     preloaded, single = checked(nut__type="double"), checked(nut__type="single")
     assert rule in preloaded.assumed
     assert rule not in single.assumed
-    load, rated = float(preloaded.case.operation.axial_load), preloaded.case.listed["dynamic_load_rating"]
+    load, rated = float(preloaded.case.operation.axial_load), preloaded.case.origins.listed["dynamic_load_rating"]
     nut = bs.DoubleNut(preloaded.nut.preload)
     by_the_standard = life.combined_life(*(life.basic_life(rated, each) for each in loads_of_halves(nut, load)))
     assert preloaded.check("life").value != pytest.approx(by_the_standard, rel=0.02)

@@ -27,6 +27,7 @@ from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.references import bibliography as entries
 from ballscrew.basis.units import DIGITS
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import NO_ORIGINS, Origins
 from ballscrew.cases.case_files.inputs import references
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
@@ -401,7 +402,7 @@ def test_torque_that_a_fit_found_besides_is_a_part_of_the_torque():
     }
     plain = case_of("rig")
     nut = dataclasses.replace(plain.screw.nut, losses={"constant": ConstantTorque(0.08)})
-    case = dataclasses.replace(plain, screw=dataclasses.replace(plain.screw, nut=nut), fit=fit)
+    case = dataclasses.replace(plain, screw=dataclasses.replace(plain.screw, nut=nut), origins=Origins(fit=fit))
     found = contents.content(case, samples=SAMPLES)
     (table,) = next(s for s in found.sections if s.title == "Where the torque comes from").blocks
     assert ["constant", "0.08 N m"] in [row[:2] for row in table.rows]
@@ -748,7 +749,7 @@ def test_heat_that_cannot_be_computed_says_why():
     case = case_of("feed_drive")
     oil = bs.Lubricant(viscosity=0.1)
     sections = contents._heat(  # the whole report would refuse the oil elsewhere
-        dataclasses.replace(case, lubricant=oil, oil={}, surroundings=bs.Surroundings(shaft_length=1.0))
+        dataclasses.replace(case, lubricant=oil, origins=NO_ORIGINS, surroundings=bs.Surroundings(shaft_length=1.0))
     )
     assert "Heat is not computed: lubricant.viscosity: has no temperature" in str(sections)
 

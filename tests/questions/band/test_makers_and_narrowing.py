@@ -79,7 +79,8 @@ def test_the_cause_named_is_the_one_that_varies():
     """Of two inputs, one a hundred times as uncertain; and nothing is named of a few samples."""
     told = {"ball_force": {"law": "proportional", "share_of_load": 0.0076}}  # so that no maker is drawn
     found = case(model={"friction": {"law": "run-in", "boundary_friction_coefficient": "0.12 ± 0.06"}, **told})
-    found = dataclasses.replace(found, uncertain={**found.uncertain, "preload": bs.Normal(3000.0, 3.0)})
+    uncertain = {**found.origins.uncertain, "preload": bs.Normal(3000.0, 3.0)}
+    found = dataclasses.replace(found, origins=dataclasses.replace(found.origins, uncertain=uncertain))
     report = compute.band(found, BandOptions(samples=1024, only_given=True))
     assert report.band.narrowing is not None
     assert report.band.narrowing.name == "friction.boundary_friction_coefficient"

@@ -198,7 +198,10 @@ def test_samples_have_what_a_calibration_left_correlated():
     # a search shows what it ends with, not what it begins with
     case = compute._case(need, space, centre, options)
     factors = _sampled(case, space).factors
-    names, covariance = tuple(case.calibration.parameters.values()), np.array(case.calibration.covariance)
+    names, covariance = (
+        tuple(case.origins.calibration.parameters.values()),
+        np.array(case.origins.calibration.covariance),
+    )
     drawn = np.cov([np.log(factors[name]) for name in names])
     by_hand = covariance[0, 1] / math.sqrt(covariance[0, 0] * covariance[1, 1])
     assert drawn[0, 1] / math.sqrt(drawn[0, 0] * drawn[1, 1]) == pytest.approx(by_hand, abs=0.08)

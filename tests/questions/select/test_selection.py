@@ -253,7 +253,9 @@ def test_a_grade_may_be_written_as_an_oil(oil):
     found = bs.select(
         {"force": "2 kN", "feed": "10 m/min", "nut": "single", "lubricant": {"oil": oil}}, words="40-20k4"
     )
-    assert [each.candidate.checked.case.oil["grade"] for each in found.ranked] == ["ISO VG 68"] * len(found.ranked)
+    assert [each.candidate.checked.case.origins.oil["grade"] for each in found.ranked] == ["ISO VG 68"] * len(
+        found.ranked
+    )
 
 
 def test_all_faults_of_a_need_at_once():
@@ -672,11 +674,11 @@ def test_the_case_of_a_short_need_says_what_was_estimated(ballscrew, tmp_path):
     assert ballscrew("select", need, *table, "--set", "screw.contact_angle=44 deg", "--to", own).returncode == 0
     oil = {"lubricant.grade", "lubricant.temperature"}
     case = case_file.load(shipped)
-    assert case.estimated == {*oil, "nut.preload", "installation.unsupported_length"}
+    assert case.origins.estimated == {*oil, "nut.preload", "installation.unsupported_length"}
     of_row = {f"screw.{name}" for name in ("pitch_circle_diameter", "screw_conformity", "nut_conformity")}
-    assert case_file.load(own).estimated == {*oil, "installation.unsupported_length", *of_row}
+    assert case_file.load(own).origins.estimated == {*oil, "installation.unsupported_length", *of_row}
     changed = case_file.load(shipped, ['installation.unsupported_length="1.3 m"'])
-    assert changed.estimated == {*oil, "nut.preload"}
+    assert changed.origins.estimated == {*oil, "nut.preload"}
 
 
 @pytest.mark.slow

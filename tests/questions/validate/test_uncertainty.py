@@ -6,7 +6,7 @@ import math
 import pytest
 
 from ballscrew.cases.case_files import uncertain_inputs
-from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.case import Case, Origins
 from ballscrew.engine.uncertainty import bands
 from ballscrew.evidence.validation.entries import Band, Entry, Point
 from ballscrew.evidence.validation.sets import SETS
@@ -37,7 +37,7 @@ def test_the_band_of_a_row_is_that_of_a_case(name, fitted):
     one = with_bands(entry([name], model, fitted), samples=64).points[0]
     at = one.computed_at
     state = OperatingState(at.axial_load, at.screw_speed)
-    case = Case(model, at.screw, at.lubricant, state, sweep={}, oil={}, calibration=found)
+    case = Case(model, at.screw, at.lubricant, state, origins=Origins(calibration=found))
     uncertain, joint = compute.distributions(case, uncertain_inputs.all_of(case))
     same = bands.band(
         model,

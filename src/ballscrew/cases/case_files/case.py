@@ -73,59 +73,70 @@ class PreloadNote(NamedTuple):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Case(Displayed):
-    """The content of a case file: a model, a screw, a lubricant, an operating point, perhaps a sweep."""
+class Origins:
+    """Where the numbers of a case are from, and how well its file knows them."""
 
-    model: FrictionModel
-    screw: BallScrew
-    lubricant: Lubricant
-    operation: OperatingState
-    sweep: Mapping[str, str]
     #: Grade and temperature the oil was made from, where it was.
-    oil: Mapping[str, Any]
+    oil: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
     #: The catalogue row the screw was made from, where it was.
     row: CatalogueRow | None = None
     #: Load ratings and root diameter, where a catalogue or the case lists them.
     listed: Mapping[str, float] = dataclasses.field(default_factory=dict[str, float])
-    installation: Installation | None = None
-    limits: Limits = USUAL_LIMITS
     #: Numbers that were derived from others.
     notes: Sequence[PreloadNote] = ()
+    #: The named calibration that gave two numbers of the model.
+    calibration: Calibration | None = None
+    #: The table ``[calibration]`` that a fit wrote beside its numbers, as it stands in the file.
+    fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
     #: Distributions of inputs that the file gives, in SI, named as sweeps name inputs; the rest of the case has
     #: their central values. :func:`~ballscrew.cases.case_files.uncertain_inputs.all_of` adds the defaults of the
     #: others.
     uncertain: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
     #: Inputs that the file gives as exact (± 0).
     exact: frozenset[str] = frozenset()
-    #: The named calibration that gave two numbers of the model.
-    calibration: Calibration | None = None
-    #: The table ``[calibration]`` that a fit wrote beside its numbers, as it stands in the file.
-    fit: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
+    #: Distributions of numbers of the surroundings that the file gives, named as ``surroundings.ball_conductance``.
+    uncertain_surroundings: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
+    #: Numbers of the surroundings that the file gives, also those that it gives as they are by default.
+    given_surroundings: frozenset[str] = frozenset()
+    #: Distributions of numbers of bearings and guides that the file gives, by section and field.
+    uncertain_supports: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
+    #: Places of values that were estimated when the case was made: ``installation.unsupported_length``.
+    estimated: frozenset[str] = frozenset()
+    #: Warnings of numbers that the file writes so that they could be others
+    #: (:mod:`ballscrew.cases.case_files.spelling`).
+    doubtful_numbers: Sequence[Record] = ()
+    #: Whether the operating point is that of steady travel in the motion, as the file gives none.
+    travels: bool = False
+    #: Whether the file gives the speed of the nut: of another lead, it is another speed of the screw.
+    speed_of_nut: bool = False
+
+
+#: Of a case that no file made.
+NO_ORIGINS = Origins()
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Case(Displayed):
+    """The content of a case file: a model, a screw, an oil, an operating point, an axis, and where they are from."""
+
+    model: FrictionModel
+    screw: BallScrew
+    lubricant: Lubricant
+    operation: OperatingState
+    sweep: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
+    origins: Origins = NO_ORIGINS
+    #: The efficiency of the rule that stands in for the model; None where the model counts.
+    efficiency: float | None = None
+    installation: Installation | None = None
+    limits: Limits = USUAL_LIMITS
     #: What moves, how it moves, and what drives it: of ``ballscrew duty`` and ``ballscrew warm-up``.
     axis: Axis | None = None
     motion: Motion | None = None
     motor: Motor | None = None
     #: Where the heat goes: of ``ballscrew warm-up``.
     surroundings: Surroundings | None = None
-    #: Distributions of numbers of the surroundings that the file gives, named as ``surroundings.ball_conductance``.
-    uncertain_surroundings: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
-    #: Numbers of the surroundings that the file gives, also those that it gives as they are by default.
-    given_surroundings: frozenset[str] = frozenset()
-    #: The efficiency of the rule that stands in for the model; None where the model counts.
-    efficiency: float | None = None
-    #: Whether the operating point is that of steady travel in the motion, as the file gives none.
-    travels: bool = False
-    #: Whether the file gives the speed of the nut: of another lead, it is another speed of the screw.
-    speed_of_nut: bool = False
-    #: Warnings of numbers that the file writes so that they could be others
-    #: (:mod:`ballscrew.cases.case_files.spelling`).
-    doubtful_numbers: Sequence[Record] = ()
     #: The bearings of the shaft by their place on it.
     bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])
-    #: Distributions of numbers of bearings and guides that the file gives, by section and field.
-    uncertain_supports: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
-    #: Places of values that were estimated when the case was made: ``installation.unsupported_length``.
-    estimated: frozenset[str] = frozenset()
 
     @property
     def nut(self) -> Nut | None:
@@ -135,7 +146,7 @@ class Case(Displayed):
 
     def sizes_of_nut(self, screw: BallScrew) -> dict[str, Any]:
         """Sizes and make of the nut as a row lists them, for the rigidity by ISO 3408-4 of a screw of the case."""
-        row, bodies = self.row, screw.nut.bodies
+        row, bodies = self.origins.row, screw.nut.bodies
         if row is None or row.ball_circle != screw.pitch_circle_diameter:
             return {"nut_outer_diameter": None, "nominal_diameter": None, "make": ""}
         listed = row.nut_outer_diameter if bodies is None or bodies.nut_outer_diameter is None else None
@@ -158,7 +169,7 @@ class Case(Displayed):
 
     def shaft_of(self, length: Length) -> TurningShaft:
         """The shaft of the screw as it turns, were it of this ``length`` (m)."""
-        row, screw = self.row, self.screw
+        row, screw = self.origins.row, self.screw
         listed = row is not None and row.ball_circle == screw.pitch_circle_diameter
         diameter = float(row.nominal_diameter if row is not None and listed else screw.pitch_circle_diameter)
         bore = 0.0 if self.surroundings is None else float(self.surroundings.bore)
@@ -201,10 +212,10 @@ class Case(Displayed):
 
         None where the geometry itself is one that no screw has: all that follows from it would be.
         """
-        screw, listed = self.screw, self.listed
-        if unusual("screw", screw) or _too_many_balls(screw, self.row):
+        screw, listed = self.screw, self.origins.listed
+        if unusual("screw", screw) or _too_many_balls(screw, self.origins.row):
             return []
-        geometry, row = rated_geometry_of(screw), self.row
+        geometry, row = rated_geometry_of(screw), self.origins.row
         if row is not None and is_shipped(row) and geometry == rated_geometry_of(row.screw(nut=screw.nut)):
             # what its own catalogue prints of these balls is no slip
             listed = {name: value for name, value in listed.items() if value != getattr(row, name)}
@@ -227,10 +238,10 @@ class Case(Displayed):
         return [
             *implausible(self._other_parts),
             *self._far_from_estimates(),
-            *_of_fit(self.fit),
-            *self.doubtful_numbers,
-            *_too_many_balls(self.screw, self.row),
-            *_of_other_nuts(self.calibration, self.screw.nut),
+            *_of_fit(self.origins.fit),
+            *self.origins.doubtful_numbers,
+            *_too_many_balls(self.screw, self.origins.row),
+            *_of_other_nuts(self.origins.calibration, self.screw.nut),
             *_not_reacted(self.model, self.lubricant),
         ]
 

@@ -19,7 +19,7 @@ from ballscrew.basis.errors import UNKNOWN, Fault, InputError, closest, nearest
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.units import in_display_units
 from ballscrew.cases.case_files import case_text, duty_tables, nut_tables, project, support_tables, uncertain_inputs
-from ballscrew.cases.case_files.case import USUAL_LIMITS, Case
+from ballscrew.cases.case_files.case import USUAL_LIMITS, Case, Origins
 from ballscrew.cases.case_files.lubricants import lubricant_of
 from ballscrew.cases.case_files.named_calibration import calibrated_by_table, of_make, with_calibration
 from ballscrew.cases.case_files.spelling import doubtful
@@ -176,29 +176,31 @@ def build(
         lubricant=lubricant,
         operation=operation,
         sweep=sweep,
-        oil=oil,
-        row=made.row,
-        listed=made.listed,
+        origins=Origins(
+            oil=oil,
+            row=made.row,
+            listed=made.listed,
+            notes=notes,
+            calibration=None if calibrated_by is None else calibrations.calibration(calibrated_by),
+            fit=fit,
+            uncertain=inputs,
+            exact=exact | exact_air,
+            uncertain_surroundings=of_air,
+            given_surroundings=frozenset(tables.get("surroundings", {})),
+            uncertain_supports=support_tables.distributions(reader),
+            estimated=estimated,
+            doubtful_numbers=doubtful(tables, _rating(screw, made)),
+            travels=travels,
+            speed_of_nut=is_nut_speed(tables.get("operation", {}).get("screw_speed")),
+        ),
+        efficiency=efficiency,
         installation=mounted,
         limits=limits,
-        notes=notes,
-        uncertain=inputs,
-        exact=exact | exact_air,
-        calibration=None if calibrated_by is None else calibrations.calibration(calibrated_by),
-        fit=fit,
         axis=moved.axis,
         motion=moved.motion,
         motor=moved.motor,
         surroundings=moved.surroundings,
-        uncertain_surroundings=of_air,
-        given_surroundings=frozenset(tables.get("surroundings", {})),
-        efficiency=efficiency,
-        travels=travels,
-        doubtful_numbers=doubtful(tables, _rating(screw, made)),
-        speed_of_nut=is_nut_speed(tables.get("operation", {}).get("screw_speed")),
         bearings=bearings,
-        uncertain_supports=support_tables.distributions(reader),
-        estimated=estimated,
     )
 
 

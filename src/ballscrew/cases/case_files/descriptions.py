@@ -116,7 +116,7 @@ def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str
     common = common_assumptions(case, ball_to_ball_force)
     if case.nut is None:
         return [*common, *_without_preload(case)]
-    notes = [note.text for note in case.notes]
+    notes = [note.text for note in case.origins.notes]
     return [*common, _bodies(case.nut), *_spacers(case), *_seals_of_row(case), *notes, *_against_vendors(case)]
 
 
@@ -130,7 +130,7 @@ def _bodies(nut: Nut) -> str:
 
 def _seals_of_row(case: Case) -> list[str]:
     """The source of the torque of the seals, where it is not that of the row they stand in."""
-    row = case.row
+    row = case.origins.row
     if row is None or not seal_torque_source(row, case.screw.nut):
         return []
     torque = units.shown(row.seal_torque, fields_of(Seals)["seal_torque"])
@@ -168,10 +168,10 @@ def _oil(case: Case) -> str:
     """The viscosity of the oil, and what the oil was made from."""
     viscosity = f"viscosity {_part(case.lubricant, 'viscosity')}"
     coefficient = f"pressure–viscosity coefficient {_part(case.lubricant, 'pressure_viscosity_coefficient')}"
-    if not case.oil:
+    if not case.origins.oil:
         return f"oil {viscosity}, {coefficient}"
-    temperature = units.shown(case.oil.get("temperature", _DEFAULT_TEMPERATURE), TEMPERATURE)
-    return f"oil {described(case.oil)} at {temperature}: {viscosity}, {coefficient}"
+    temperature = units.shown(case.origins.oil.get("temperature", _DEFAULT_TEMPERATURE), TEMPERATURE)
+    return f"oil {described(case.origins.oil)} at {temperature}: {viscosity}, {coefficient}"
 
 
 def _between_balls(case: Case, force: float | None) -> str:
@@ -188,7 +188,7 @@ def _between_balls(case: Case, force: float | None) -> str:
 
 def _without_preload(case: Case) -> list[str]:
     """The nut that is missing where the row of a preloaded nut is computed without one."""
-    kind = "" if case.row is None else case.row.nut
+    kind = "" if case.origins.row is None else case.origins.row.nut
     if case.nut is not None or kind in ("", "single"):
         return []
     return [f'without preload: the row is a {kind} nut, and none is given; add type = "{kind}" and a preload to [nut]']
@@ -199,7 +199,11 @@ def _against_vendors(case: Case) -> list[str]:
     near = vendor_rows_like(case)
     if near is None:
         return []
-    how = "without calibration" if case.calibration is None else f"which {case.calibration.name} was fitted to"
+    how = (
+        "without calibration"
+        if case.origins.calibration is None
+        else f"which {case.origins.calibration.name} was fitted to"
+    )
     ratio = (
         "drag torque without seals at 100 rpm, ISO VG 100 at 25 degC, model / vendor: "
         f"{near.mean:.2f} ± {near.scatter:.2f} for the {len(near.rows)} rows of {near.data} most like this nut, {how} "
@@ -229,10 +233,10 @@ def left_out(case: Case) -> str:
     if case.nut is not None:
         missing = tuple(words for slot, words in _LOSSES.items() if slot not in case.nut.losses)
     losses = [f"left out: {', '.join(missing)}"] if missing else []
-    comparison = [] if case.fit.get("log") else ["not compared with measurements"]
+    comparison = [] if case.origins.fit.get("log") else ["not compared with measurements"]
     return "; ".join([*losses, *comparison])
 
 
 def of_fit(case: Case) -> list[str]:
     """The log of a fitted case."""
-    return [f"calibrated to {case.fit['log']}"] if case.fit.get("log") else []
+    return [f"calibrated to {case.origins.fit['log']}"] if case.origins.fit.get("log") else []

@@ -57,7 +57,7 @@ def with_numbers(tables: Mapping[str, Any], case: Case, calibrated_model: Calibr
     settings: list[str] = []
     for full, estimate in zip(calibrated_model.response.names, calibrated_model.estimates.values(), strict=False):
         settings.append(f'{_place(known, full)}="{_written(estimate)}"')
-        if full == "viscosity" and case.oil:
+        if full == "viscosity" and case.origins.oil:
             # one of the two: what the grade or the data sheet gave is written out
             made["lubricant"] = {k: v for k, v in made["lubricant"].items() if k not in OF_NAMED_OIL}
             for name, quantity in fields_of(Lubricant).items():

@@ -24,12 +24,12 @@ from ballscrew.physics.sizing.installation import Installation
 def inputs(case: Case) -> dict[str, Any]:
     """All inputs of a case in SI, by section: what ``--json`` prints."""
     model = case.model
-    of_row = {} if case.row is None else {"catalogue": case.row.name, "source": case.row.source}
+    of_row = {} if case.origins.row is None else {"catalogue": case.origins.row.name, "source": case.origins.row.source}
     materials = {name: _numbers(getattr(case.screw, name)) for name in MATERIALS}
     return {
-        "screw": {**of_row, **_numbers(case.screw), **case.listed, **materials},
-        "lubricant": {**case.oil, **_numbers(case.lubricant)},
-        **({} if case.travels else {"operation": _numbers(case.operation)}),
+        "screw": {**of_row, **_numbers(case.screw), **case.origins.listed, **materials},
+        "lubricant": {**case.origins.oil, **_numbers(case.lubricant)},
+        **({} if case.origins.travels else {"operation": _numbers(case.operation)}),
         "model": {
             "name": model.name,
             **_numbers(model),
@@ -68,7 +68,7 @@ def _inputs_of_nut(case: Case, nut: Nut) -> dict[str, Any]:
 def _losses(case: Case, nut: Nut) -> dict[str, Any]:
     """The laws of the losses, of seals with the source of their torque where the row of the screw has one."""
     values = {slot: _law(slot, law) for slot, law in nut.losses.items()}
-    seals, source = values.get("seals"), seal_torque_source(case.row, nut)
+    seals, source = values.get("seals"), seal_torque_source(case.origins.row, nut)
     return {**values, "seals": {**seals, "source": source}} if source and isinstance(seals, dict) else values
 
 
@@ -97,8 +97,8 @@ def of_case(case: Case) -> dict[str, Any]:
 
 def references(case: Case) -> list[str]:
     """Keys of the sources of the model, and of the oil where it was made from a grade."""
-    made_by = Lubricant.from_grade if "grade" in case.oil else Lubricant.from_data_sheet
-    of_oil = keys_in(documentation(made_by)) if case.oil else ()
+    made_by = Lubricant.from_grade if "grade" in case.origins.oil else Lubricant.from_data_sheet
+    of_oil = keys_in(documentation(made_by)) if case.origins.oil else ()
     losses = {} if case.nut is None else case.nut.losses
     of_nut = [key for law in losses.values() for key in keys_in(documentation(type(law)))]
     of_model = citations_of(case.model) if case.efficiency is None else ()

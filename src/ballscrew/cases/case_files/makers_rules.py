@@ -40,7 +40,7 @@ class OfRule(NamedTuple):
 def subject_of(case: Case) -> Subject:
     """Sizes, load and preload of a case; the pitch circle stands for a nominal diameter that it does not state."""
     screw = case.screw
-    nominal = screw.pitch_circle_diameter if case.row is None else case.row.nominal_diameter
+    nominal = screw.pitch_circle_diameter if case.origins.row is None else case.origins.row.nominal_diameter
     return Subject(
         nominal_diameter=float(nominal),
         pitch_circle_diameter=float(screw.pitch_circle_diameter),
@@ -53,7 +53,7 @@ def subject_of(case: Case) -> Subject:
 
 def make_of(case: Case) -> str:
     """The make of the nut as its row gives it; empty where none is known."""
-    return "" if case.row is None else case.row.make
+    return "" if case.origins.row is None else case.origins.row.make
 
 
 def by_rules(case: Case) -> Sequence[OfRule]:

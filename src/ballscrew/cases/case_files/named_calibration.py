@@ -70,13 +70,13 @@ def calibrated_by_table(model: FrictionModel, table: Mapping[str, Any]) -> Frict
 def written_out(table: Mapping[str, Any], case: Case) -> dict[str, Any]:
     """The table ``[model]`` with the numbers of the case's calibration in place of its name: a fit may change them."""
     made = {key: value for key, value in table.items() if key != "calibration"}
-    if case.calibration is None:
+    if case.origins.calibration is None:
         return made
     for slot in _CHAIN:
         law = getattr(case.model, slot)
         numbers = {name: getattr(law, name) for name in coefficients(law)}
         made[slot] = {"law": name_of_law(slot, law), **numbers} if numbers else name_of_law(slot, law)
-    if _NUMBER in case.calibration.fitted:
+    if _NUMBER in case.origins.calibration.fitted:
         friction: Any = case.model.friction
         given: Any = made.get("friction")
         others = given if isinstance(given, dict) else {}
@@ -91,9 +91,9 @@ def vendor_rows_like(case: Case) -> NearRows | None:
 
     None without preload, far from all rows, and for another model than the one the ratios were stored for.
     """
-    nut, fitted = case.nut, case.calibration
+    nut, fitted = case.nut, case.origins.calibration
     compared = FrictionModel.reference() if fitted is None else calibrated(FrictionModel.reference(), fitted)
     preloaded = getattr(nut, "preload", 0.0) or getattr(nut, "oversize", 0.0)
-    if nut is None or not preloaded or case.fit or case.model != compared:
+    if nut is None or not preloaded or case.origins.fit or case.model != compared:
         return None
     return near_rows(dataclasses.replace(case.screw, nut=nut), None if fitted is None else fitted.name)

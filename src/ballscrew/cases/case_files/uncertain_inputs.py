@@ -63,16 +63,20 @@ def all_of(case: Case, only_given: bool = False) -> Mapping[str, Uncertain]:
     known = inputs_of(case.model, case.screw, case.lubricant)
     uncertain = {
         name: Uncertain(distribution, GIVEN, True, describe_distribution(distribution, known[name][1]))
-        for name, distribution in case.uncertain.items()
+        for name, distribution in case.origins.uncertain.items()
     }
-    if case.calibration is not None:
-        uncertain |= {name: u for name, u in _of_calibration(case.calibration, known).items() if name not in case.exact}
+    if case.origins.calibration is not None:
+        uncertain |= {
+            name: u
+            for name, u in _of_calibration(case.origins.calibration, known).items()
+            if name not in case.origins.exact
+        }
     if not only_given:
-        usual = default_distributions(case.model, case.screw, case.lubricant, given=uncertain, exact=case.exact)
+        usual = default_distributions(case.model, case.screw, case.lubricant, given=uncertain, exact=case.origins.exact)
         # a fit holds for what it held: not for the temperature of the day, and not for what it could not tell
-        open_after_fit = {TEMPERATURE.name, *case.fit.get("not_identified", ())}
+        open_after_fit = {TEMPERATURE.name, *case.origins.fit.get("not_identified", ())}
         for name, (distribution, why) in usual.items():
-            if case.fit and name not in open_after_fit:
+            if case.origins.fit and name not in open_after_fit:
                 continue
             description = describe_distribution(distribution, known[name][1])
             uncertain[name] = Uncertain(distribution, why.source, False, description, why.reason)
@@ -88,14 +92,14 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
     # loads xarray: only where inputs are sampled
     from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
-    if case.fit:
+    if case.origins.fit:
         faults: list[Fault] = []
-        joint = _joint_of_fit(case.fit, inputs_of(case.model, case.screw, case.lubricant), faults)
+        joint = _joint_of_fit(case.origins.fit, inputs_of(case.model, case.screw, case.lubricant), faults)
         raise_if_any(faults)
-    elif case.calibration is not None:
-        parameters = case.calibration.parameters
-        mean = np.array([getattr(case.calibration, field) for field in parameters])
-        joint = JointNormal(tuple(parameters.values()), mean, np.array(case.calibration.covariance))
+    elif case.origins.calibration is not None:
+        parameters = case.origins.calibration.parameters
+        mean = np.array([getattr(case.origins.calibration, field) for field in parameters])
+        joint = JointNormal(tuple(parameters.values()), mean, np.array(case.origins.calibration.covariance))
     else:
         joint = None
     if joint is None:

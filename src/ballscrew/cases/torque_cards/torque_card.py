@@ -190,7 +190,7 @@ def read(path: Path) -> TorqueCard:
     setup = read_table("setup", _setup_model(), tables["setup"], faults) if "setup" in tables else {}
     points = _points(tables["points"], faults) if "points" in tables else []
     case = _case(tables, path.parent, faults)
-    if case is not None and not case.oil and any("temperature" in point for point in points):
+    if case is not None and not case.origins.oil and any("temperature" in point for point in points):
         remedy = 'write lubricant.grade = "ISO VG 68", so that the viscosity follows the temperature'
         faults.append(Fault("points.temperature", "needs an oil of a data sheet or a grade", "", remedy))
     if faults or case is None:

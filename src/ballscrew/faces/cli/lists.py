@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.cases.case_files.inputs import references
 from ballscrew.faces.cli.options import AsJson, file_option, print_answer
 from ballscrew.questions.shared.question import CaseOptions
 
@@ -38,6 +37,7 @@ def cite(
 ) -> None:
     """BibTeX of the sources that a case makes use of."""
     from ballscrew.basis.references import bibliography
+    from ballscrew.cases.case_files.inputs import references
 
     entries = bibliography()
     keys = list(entries) if case is None else references(case_options.load(case))

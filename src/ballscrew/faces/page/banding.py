@@ -244,7 +244,7 @@ def uncertain_of(model: str, kind: str) -> list[dict[str, Any]]:
     for oil, start in (("viscosity", kinds.PAPER), ("grade", _OF_GRADE)):
         case = kinds.case_of(start, model, kind)
         known = inputs_of_module(kinds.subject_of(case))
-        usual = default_distributions(case.model, case.screw, case.lubricant, exact=case.exact)
+        usual = default_distributions(case.model, case.screw, case.lubricant, exact=case.origins.exact)
         if not {*known, TEMPERATURE.name} >= usual.keys():
             return []
         result[oil] = [_entry(case, name, why) for name, (_, why) in usual.items()]

@@ -284,7 +284,7 @@ def _heat(case: Case) -> list[Section]:
 
 def subtitle(case: Case) -> list[str]:
     """Row, screw, nut, operating point and model of a case, a line each."""
-    of_row = [] if case.row is None else [f"{case.row.name} ({case.row.source})"]
+    of_row = [] if case.origins.row is None else [f"{case.origins.row.name} ({case.origins.row.source})"]
     nut = [] if case.nut is None else [descriptions.nut_text(case.nut)]
     lines = [*of_row, descriptions.design(case, plain_text=True), *nut]
     return [*lines, f"{descriptions.operating_point(case)}; {descriptions.model_text(case)}"]
@@ -341,8 +341,8 @@ def _at(x: Any, y: Any, here: float) -> str:
 
 def _model(case: Case) -> Sequence[Block]:
     said = [f"{sentence(line)}." for line in (descriptions.model_text(case), *descriptions.of_fit(case))]
-    if case.calibration is not None:
-        said.append(f"Two numbers of it are from the calibration {case.calibration.name}.")
+    if case.origins.calibration is not None:
+        said.append(f"Two numbers of it are from the calibration {case.origins.calibration.name}.")
     return [Paragraph(" ".join(said))]
 
 
@@ -354,7 +354,7 @@ def origins(case: Case, inputs: list[Table]) -> Paragraph:
 def sources(case: Case, band_report: compute.BandReport) -> list[tuple[str, str]]:
     """Sources of a case and its band, in words, each with its address."""
     keys = [*references(case), *_OF_CHECKS, *(one.source for one in band_report.inputs.values())]
-    keys += [] if case.row is None else bibliography.of_catalogue(case.row.source)
+    keys += [] if case.origins.row is None else bibliography.of_catalogue(case.origins.row.source)
     if case.limits.diameter_speed_product is None:
-        keys += (speed_limit_of(case.row) or GENERAL).sources
+        keys += (speed_limit_of(case.origins.row) or GENERAL).sources
     return [(f"{source.key}: {source.words}", source.link) for source in bibliography.sources(keys)]

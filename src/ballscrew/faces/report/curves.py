@@ -74,7 +74,7 @@ def curves(case: Case) -> Curves:
     def friction(load: Any, speed: Any) -> Any:
         return evaluated(sign * load, sign * speed)
 
-    rating = case.listed.get("dynamic_load_rating")
+    rating = case.origins.listed.get("dynamic_load_rating")
     most_load = BEYOND * load or (LOAD if rating is None else SHARE_OF_RATING * rating)
     most_speed = BEYOND * speed or SPEED
     speeds, loads = (np.linspace(0.0, most, POINTS) for most in (most_speed, most_load))

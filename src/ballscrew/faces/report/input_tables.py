@@ -61,7 +61,7 @@ def sources_in_words(case: Case, result: list[Table]) -> str:
     """Legend of the words in the last column, of those that occur."""
     used = {str(row[-1]) for table in result for row in table.rows}
     words = [f"{name}: {text}" for name, text in FROM_IN_WORDS.items() if name in used]
-    row = [] if case.row is None else [f'the row is "{case.row.name}" ({case.row.source})']
+    row = [] if case.origins.row is None else [f'the row is "{case.origins.row.name}" ({case.origins.row.source})']
     return f"{'; '.join([*words, *row])}."
 
 
@@ -70,7 +70,7 @@ Rows = list[tuple[str, str, str]]
 
 def _source(case: Case, place: str, source: str) -> str:
     """The source of a value at a place in the case, which may say that it is an estimate."""
-    return ESTIMATE if source == CASE and place in case.estimated else source
+    return ESTIMATE if source == CASE and place in case.origins.estimated else source
 
 
 def _part(case: Case, part: Any, known: Mapping[str, Quantity], source: Callable[[str], str], section: str) -> Rows:
@@ -79,9 +79,9 @@ def _part(case: Case, part: Any, known: Mapping[str, Quantity], source: Callable
     for name, quantity in known.items():
         value = getattr(part, name)
         if value is not None:
-            given = case.uncertain.get(name)
+            given = case.origins.uncertain.get(name)
             words = value_of(value, quantity) if given is None else describe_distribution(given, quantity)
-            exact = " ± 0" if name in case.exact else ""
+            exact = " ± 0" if name in case.origins.exact else ""
             word = CASE if given is not None else source(name)
             rows.append((quantity.info.meaning, words + exact, _source(case, f"{section}.{name}", word)))
     return rows
@@ -92,8 +92,8 @@ def _defaults(kind: Any) -> Mapping[str, Any]:
 
 
 def _screw(case: Case) -> Rows:
-    usual, of_row = _defaults(BallScrew), None if case.row is None else case.row.screw()
-    assumed = frozenset[str]() if case.row is None else catalogue.assumed_fields(case.row)
+    usual, of_row = _defaults(BallScrew), None if case.origins.row is None else case.origins.row.screw()
+    assumed = frozenset[str]() if case.origins.row is None else catalogue.assumed_fields(case.origins.row)
 
     def source(name: str) -> str:
         value = getattr(case.screw, name)
@@ -104,8 +104,8 @@ def _screw(case: Case) -> Rows:
         return CASE
 
     rows = _part(case, case.screw, fields_of(BallScrew), source, "screw")
-    for name, value in case.listed.items():
-        listed = case.row is not None and getattr(case.row, name) == value
+    for name, value in case.origins.listed.items():
+        listed = case.origins.row is not None and getattr(case.origins.row, name) == value
         word = ROW if listed else _source(case, f"screw.{name}", CASE)
         rows.append((LISTED[name].info.meaning, value_of(value, LISTED[name]), word))
     return [*rows, *_materials(case.screw)]
@@ -132,16 +132,18 @@ def _lubricant(case: Case) -> Rows:
     oil, usual = case.lubricant, _defaults(Lubricant)
     rows: Rows = []
     of_grade: OilState | None = None
-    if case.oil:
+    if case.origins.oil:
         of_grade = nominal_oil(oil)
-        name = "grade" if "grade" in case.oil else "oil"
-        rows.append((name, described(case.oil), _source(case, f"lubricant.{name}", CASE)))
+        name = "grade" if "grade" in case.origins.oil else "oil"
+        rows.append((name, described(case.origins.oil), _source(case, f"lubricant.{name}", CASE)))
         rows += [
-            (q.info.meaning, value_of(case.oil[n], q), CASE) for n, q in fields_of(DataSheet).items() if n in case.oil
+            (q.info.meaning, value_of(case.origins.oil[n], q), CASE)
+            for n, q in fields_of(DataSheet).items()
+            if n in case.origins.oil
         ]
-        if "temperature" in case.oil:
-            given = case.uncertain.get("temperature")
-            shown = value_of(case.oil["temperature"], TEMPERATURE)
+        if "temperature" in case.origins.oil:
+            given = case.origins.uncertain.get("temperature")
+            shown = value_of(case.origins.oil["temperature"], TEMPERATURE)
             words = shown if given is None else describe_distribution(given, TEMPERATURE)
             rows.append((TEMPERATURE.info.meaning, words, _source(case, "lubricant.temperature", CASE)))
 
@@ -162,10 +164,16 @@ def _nut(case: Case) -> Rows:
     nut = case.nut
     if nut is None:
         return []
-    of_row = case.row is not None and (case.row.nut or "single") == kind_of(nut)
+    of_row = case.origins.row is not None and (case.origins.row.nut or "single") == kind_of(nut)
     rows: Rows = [("kind of nut", kind_of(nut), ROW if of_row else CASE)]
     rows += (
-        [("spacer balls", "every second ball", ROW if case.row is not None and case.row.spacer_balls else CASE)]
+        [
+            (
+                "spacer balls",
+                "every second ball",
+                ROW if case.origins.row is not None and case.origins.row.spacer_balls else CASE,
+            )
+        ]
         if nut.spacer_balls
         else []
     )
@@ -237,7 +245,7 @@ def laws(case: Case) -> Table:
     model = case.model
     changed = set(model.changes)
     by_calibration = (
-        set() if case.calibration is None else {"ball_force", "friction"}
+        set() if case.origins.calibration is None else {"ball_force", "friction"}
     )  # what components of a model a named calibration sets
     rows: Rows = []
     for slot in LAWS:
@@ -248,8 +256,8 @@ def laws(case: Case) -> Table:
             f"{coefficient.replace('_', ' ')} "
             + (
                 value_of(getattr(law, coefficient), quantity)
-                if f"{slot}.{coefficient}" not in case.uncertain
-                else describe_distribution(case.uncertain[f"{slot}.{coefficient}"], quantity)
+                if f"{slot}.{coefficient}" not in case.origins.uncertain
+                else describe_distribution(case.origins.uncertain[f"{slot}.{coefficient}"], quantity)
             )
             for coefficient, quantity in known.items()
         ]

@@ -167,9 +167,9 @@ def _places(
     is_share = "%" in str(_at(tables, "nut.preload"))
     of_row = _at(tables, "screw.catalogue") is not None
     # what follows from several fields, by the part, and by the name.
-    parts = {"screw": of_row or is_share or case.speed_of_nut, "model": case.calibration is not None}
-    names = {"screw_speed": case.speed_of_nut, "preload": is_share}
-    names |= dict.fromkeys(OF_A_GRADE, bool(case.oil) or grade is not None)
+    parts = {"screw": of_row or is_share or case.origins.speed_of_nut, "model": case.origins.calibration is not None}
+    names = {"screw_speed": case.origins.speed_of_nut, "preload": is_share}
+    names |= dict.fromkeys(OF_A_GRADE, bool(case.origins.oil) or grade is not None)
     for name, (part, quantity) in known.items():
         if parts.get(part, False) or names.get(name, False):
             continue

@@ -229,7 +229,7 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
         installation=installation,
         positions=np.asarray(places, dtype=float),
         axial_load=largest or None,
-        root_diameter=case.listed.get("root_diameter"),
+        root_diameter=case.origins.listed.get("root_diameter"),
         **sizes,
     )
     if travel is None:

@@ -171,8 +171,8 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     records += _narrowing(report, case, quantity)
     records += _full_bath(report)
     records += _rules(case, report)
-    if case.fit:
-        log, off = case.fit.get("log"), case.fit.get("holdout_rms")
+    if case.origins.fit:
+        log, off = case.origins.fit.get("log"), case.origins.fit.get("holdout_rms")
         message = (
             f"calibrated to {log if log else 'a log'}: what the fit held counts as known, no law is exchanged; on "
             f"rows held out the model was off by {_torque_in_file(off, quantity)}"

@@ -150,11 +150,11 @@ def alternatives(case: Case) -> list[Candidate]:
     A named calibration holds for the laws that it was fitted with: those whose coefficients it sets are not exchanged.
     With any other law a fit would have found other numbers: of a case that a fit wrote none is exchanged.
     """
-    if case.fit:
+    if case.origins.fit:
         return []
     _, laws = compute.candidates(case)
     makers = of_makers(case)
-    numbers = [] if case.calibration is None else PARAMETERS.values()
+    numbers = [] if case.origins.calibration is None else PARAMETERS.values()
     fitted = {name.partition(".")[0] for name in numbers}
     return [
         *(
@@ -179,7 +179,7 @@ def of_makers(case: Case) -> list[Candidate]:
     nut, model = case.screw.nut, case.model
     pressed = PRESSING & set(model.changes)
     has_boundary = PARAMETERS["boundary_friction_coefficient"].rpartition(".")[2] in coefficients(model.friction)
-    if case.calibration is not None or case.fit or pressed or not has_boundary:
+    if case.origins.calibration is not None or case.origins.fit or pressed or not has_boundary:
         return []
     if nut.spacer_balls or not _preloaded(case):
         return []

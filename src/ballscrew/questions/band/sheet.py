@@ -190,7 +190,7 @@ def _others(case: Case, report: BandReport) -> Table:
 
 def _laws(case: Case, report: BandReport) -> list[Block]:
     """The laws that were drawn instead of the model's, slot by slot; nothing for a fit, which exchanges none."""
-    if case.fit:
+    if case.origins.fit:
         return []
     if not report.band.alternatives:
         return [Lines([Line("no other law is valid here: the band is that of the inputs alone")])]
@@ -324,7 +324,11 @@ def vendor_rows(case: Case) -> tuple[str, Table] | None:
         middle = (low + high) / 2
         model = Number(ratio * middle, _TORQUE, 3)
         rows.append([row, Number(middle, _TORQUE, band=(low, high)), model, Number(ratio, _RATIO, 3)])
-    how = "without calibration" if case.calibration is None else f"with the calibration {case.calibration.name}"
+    how = (
+        "without calibration"
+        if case.origins.calibration is None
+        else f"with the calibration {case.origins.calibration.name}"
+    )
     text = (
         f"for the {len(rows)} rows of {near.data} most like this nut in diameter and lead the model gives "
         f"{near.mean:.2f} ± {near.scatter:.2f} times the vendor's no-load torque, {how}"

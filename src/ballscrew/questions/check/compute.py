@@ -101,12 +101,12 @@ class Checked:
     @property
     def geometry(self) -> Geometry:
         """Sizes that follow from others."""
-        return Geometry(self.case.screw.lead_angle, nut_tables.root_diameter(self.case.screw, self.case.listed))
+        return Geometry(self.case.screw.lead_angle, nut_tables.root_diameter(self.case.screw, self.case.origins.listed))
 
     @property
     def ratings(self) -> BothRatings:
         """The load ratings."""
-        listed, computed = (self.case.listed.get(name) for name in RATINGS), self.computed
+        listed, computed = (self.case.origins.listed.get(name) for name in RATINGS), self.computed
         return BothRatings(Rated(*listed), None if computed is None else Rated(computed.dynamic, computed.static))
 
     @property
@@ -338,17 +338,17 @@ def _judged(
         **rated,
         half_loads=half_loads(load, left),
         maximum_pressure=pressure,
-        root_diameter=case.listed.get("root_diameter"),
+        root_diameter=case.origins.listed.get("root_diameter"),
         installation=case.installation,
         limits=case.limits,
-        speed_limit=speed_limit_of(case.row),
+        speed_limit=speed_limit_of(case.origins.row),
         computed_ratings=stand_ins,
     )
 
 
 def _rated(case: Case, computed: Ratings | None) -> tuple[dict[str, float | None], list[str]]:
     """The ratings of a case, those of the geometry where it lists none, and the names of these."""
-    rated = {name: case.listed.get(name) for name in RATINGS}
+    rated = {name: case.origins.listed.get(name) for name in RATINGS}
     stand_ins = [name for name, value in rated.items() if value is None and computed is not None]
     return rated | {name: getattr(computed, RATINGS[name]) for name in stand_ins}, stand_ins
 
@@ -360,7 +360,7 @@ def _of_known_preload(nut: Nut, preload: Force) -> Nut:
 
 def _computed(case: Case) -> Ratings | None:
     try:
-        return nut_tables.ratings(case.screw, case.row)
+        return nut_tables.ratings(case.screw, case.origins.row)
     except InputError:
         return None
 

@@ -31,7 +31,7 @@ _STATIC_CRITERION = (
 def sheet(screw: Checked) -> Sheet:
     """All that people see of the checks of one screw."""
     case = screw.case
-    source = "" if case.row is None else f" ({case.row.source})"
+    source = "" if case.origins.row is None else f" ({case.origins.row.source})"
     records = [*([] if screw.heating is None else screw.heating.records), *screw.run.verdicts]
     return Sheet(
         f"{screw.name}{source}: {descriptions.title(screw.run.case)}",
@@ -131,7 +131,7 @@ def cells(screw: Checked) -> Cells:
 
 def unlisted_ratings(screw: Checked) -> str:
     """The ratings that the checks took from the geometry, as nobody lists them; nothing where all are listed."""
-    names = [name for name in Rated._fields if screw.case.listed.get(name) is None]
+    names = [name for name in Rated._fields if screw.case.origins.listed.get(name) is None]
     if screw.computed is None or not names:
         return ""
     computed = screw.ratings.computed

@@ -37,7 +37,7 @@ def band(
     inputs = dict(all_of(report.case, only_given))
     uncertain = {name: one.distribution for name, one in inputs.items()}
     known = {**fields_of_laws(GUIDE_LAWS), **fields_of_laws(BEARING_LAWS)}
-    for name, distribution in report.case.uncertain_supports.items():
+    for name, distribution in report.case.origins.uncertain_supports.items():
         words = describe_distribution(distribution, known[name.rpartition(".")[2]])
         inputs[name] = Uncertain(distribution, GIVEN, True, words)
     if only_given and not inputs:
@@ -46,7 +46,7 @@ def band(
         result = duty_band(
             report.duty,
             distributions=uncertain,
-            beside=report.case.uncertain_supports,
+            beside=report.case.origins.uncertain_supports,
             samples=SAMPLES if samples is None else samples,
             done=done,
         )

@@ -551,12 +551,12 @@ class DutyReport(CycleNumbers):
             largest_load=self.largest_load,
             screw_speed=float(np.max(np.abs(duty.screw_speed))),
             nut=nut,
-            static_load_rating=case.listed.get("static_load_rating"),
+            static_load_rating=case.origins.listed.get("static_load_rating"),
             maximum_pressure=pressure,
-            root_diameter=case.listed.get("root_diameter"),
+            root_diameter=case.origins.listed.get("root_diameter"),
             installation=case.installation,
             limits=case.limits,
-            speed_limit=speed_limit_of(case.row),
+            speed_limit=speed_limit_of(case.origins.row),
         )
         return [check for check in result if check.name not in _OF_CYCLE]
 
@@ -684,6 +684,6 @@ def beside(case: Case) -> Mapping[str, FrictionElement]:
 
 def _rating(case: Case) -> tuple[float | None, str]:
     try:
-        return dynamic_rating(case.screw, case.row, case.listed)
+        return dynamic_rating(case.screw, case.origins.row, case.origins.listed)
     except InputError:  # of a geometry that no standard has ratings for
         return None, "not known"

@@ -172,7 +172,7 @@ def _cycle(report: DutyReport, bands: DutyBandReport | None) -> Table:
 def _origin_of(bands: DutyBandReport | None) -> Iterator[str]:
     if bands is not None:
         given = sum(one.given for one in bands.inputs.values())
-        supports = ", bearings and guides" if bands.report.case.uncertain_supports else ""
+        supports = ", bearings and guides" if bands.report.case.origins.uncertain_supports else ""
         yield (
             f"Bands: {100 * bands.bands.level:.4g} % of {bands.bands.count} samples of {len(bands.inputs)} uncertain "
             f"inputs of screw, oil and model{supports}, {given} of them given by the case; motion, axis and laws are "

@@ -90,11 +90,11 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
         )
 
     priors = {
-        name: case.uncertain[full]
+        name: case.origins.uncertain[full]
         for name in options.free
-        if name in known and (full := _full_name(subject, name)) is not None and full in case.uncertain
+        if name in known and (full := _full_name(subject, name)) is not None and full in case.origins.uncertain
     }
-    again = bool(priors) and log.source is not None and case.fit.get("sha256") == log.source[1]
+    again = bool(priors) and log.source is not None and case.origins.fit.get("sha256") == log.source[1]
     if again:  # an estimate from this log is no further evidence beside the log
         priors = {}
     with faults_named(_FLAGS):
@@ -126,7 +126,7 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
 def _rating(case: Case) -> float | None:
     """The dynamic load rating, N; None of a geometry that no standard has ratings for."""
     try:
-        return dynamic_rating(case.screw, case.row, case.listed)[0]
+        return dynamic_rating(case.screw, case.origins.row, case.origins.listed)[0]
     except InputError:
         return None
 
@@ -136,7 +136,7 @@ def _temperature_error(case: Case, log: TorqueLog, options: FitOptions) -> float
 
     Where the log has no temperatures, it is that of the case, and so is its distribution if the case gives one.
     """
-    given = case.uncertain.get(TEMPERATURE.name)
+    given = case.origins.uncertain.get(TEMPERATURE.name)
     if options.temperature_error is not None or given is None or uses_temperatures(case.lubricant, log):
         return options.temperature_error
     low, high = (float(given.quantile(share)) for share in (0.025, 0.975))

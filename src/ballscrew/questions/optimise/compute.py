@@ -321,7 +321,7 @@ def optimise(
         told(evaluations + number, evaluations + len(places))
     notes = [*asked.notes, *space.notes]
     if len(asked.oils) > 1:
-        notes.append(f"oil {case.oil.get('grade', 'of the first table')}: the first of {len(asked.oils)}")
+        notes.append(f"oil {case.origins.oil.get('grade', 'of the first table')}: the first of {len(asked.oils)}")
     return Optimisation(
         asked,
         space,

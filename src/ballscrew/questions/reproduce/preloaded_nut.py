@@ -225,6 +225,6 @@ def _quantity(banded: Banded, name: str) -> Quantity:
 
 
 def _row(preloaded_nut: PreloadedNut) -> str:
-    row = preloaded_nut.loaded.case.row
+    row = preloaded_nut.loaded.case.origins.row
     assert row is not None, "the case has a row"
     return row.name

@@ -106,7 +106,7 @@ def vendor_rows(case: Case) -> VendorRows | None:
     near = vendor_rows_like(case)
     if near is None:
         return None
-    calibration = None if case.calibration is None else case.calibration.name
+    calibration = None if case.origins.calibration is None else case.origins.calibration.name
     maker = rule_of(near.data)
     return VendorRows(
         near.data, near.data if maker is None else maker.maker, calibration, near.mean, near.scatter, near.rows

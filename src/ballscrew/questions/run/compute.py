@@ -268,7 +268,7 @@ class Run:
             return []
         case = self.case
         try:
-            rating, source = dynamic_rating(case.screw, case.row, case.listed)
+            rating, source = dynamic_rating(case.screw, case.origins.row, case.origins.listed)
         except InputError:  # of a geometry that no standard has ratings for
             return []
         values = {"preload": self.nut.preload, "dynamic_load_rating": rating, "implausible_preload": False}

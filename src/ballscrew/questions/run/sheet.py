@@ -200,7 +200,7 @@ def rules_contradict(run: Run) -> list[str]:
 
 def _of_loss(name: str, case: Case) -> str:
     """A loss, of seals with the table that their torque is from, where it is not the row's own."""
-    source = seal_torque_source(case.row, case.screw.nut) if name == "seals" else ""
+    source = seal_torque_source(case.origins.row, case.screw.nut) if name == "seals" else ""
     return f"of which {MECHANISMS.get(name, name)}" + (f" ({source})" if source else "")
 
 

@@ -35,8 +35,8 @@ def tables(candidate: Candidate, need: Need, model: str | None = None) -> dict[s
     estimates = _estimates(candidate, need, made)
     if estimates:
         made[ESTIMATES] = estimates
-    if candidate.case.calibration is not None:
-        return {**with_calibration(made, candidate.case.calibration.name)}
+    if candidate.case.origins.calibration is not None:
+        return {**with_calibration(made, candidate.case.origins.calibration.name)}
     return {**with_calibration(made, NO_CALIBRATION)} if "calibration" in made.get("model", {}) else made
 
 

@@ -238,7 +238,7 @@ def warnings(case: Case, report: SensitivityReport) -> list[Record]:
                 limit=0.0,
             )
         )
-    if case.calibration is not None:
+    if case.origins.calibration is not None:
         records.append(Record(text=CORRELATED, id="sensitivity.correlated", subject="calibration", severity="warning"))
     return records
 

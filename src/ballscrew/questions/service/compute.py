@@ -110,7 +110,7 @@ def of_logs(
             tolerance=options.tolerance,
             kind=options.kind,
             inertia=options.inertia,
-            dynamic_load_rating=case.listed.get("dynamic_load_rating"),
+            dynamic_load_rating=case.origins.listed.get("dynamic_load_rating"),
             done=done,
         )
     records = tuple(change.warning_records)
@@ -147,8 +147,8 @@ def _starved(case: Case, preload_estimate: PreloadEstimate, measured: Reading) -
 def distributions(case: Case) -> dict[str, Distribution]:
     """The uncertain numbers of a case, the temperature left to the logs, and what a grade then leaves open instead."""
     values = {name: one.distribution for name, one in all_of(case).items() if name != TEMPERATURE.name}
-    if not case.fit and case.lubricant.follows_temperature:
-        exact = {*case.exact, TEMPERATURE.name}
+    if not case.origins.fit and case.lubricant.follows_temperature:
+        exact = {*case.origins.exact, TEMPERATURE.name}
         usual = default_distributions(case.model, case.screw, case.lubricant, given=values, exact=exact)
         values |= {name: distribution for name, (distribution, _) in usual.items()}
     return values

@@ -196,17 +196,12 @@ def _inputs_at(
 ) -> _Inputs:
     """What is uncertain where inputs have other values: as of a case file that has them, and no ± beside them."""
     there = Configuration(case.model, case.screw, case.lubricant).changed({**here, **given_of_oil})
-    uncertain = {name: distribution for name, distribution in case.uncertain.items() if name not in varied}
-    if case.speed_of_nut and "lead" in here and "screw_speed" in uncertain:
+    uncertain = {name: distribution for name, distribution in case.origins.uncertain.items() if name not in varied}
+    if case.origins.speed_of_nut and "lead" in here and "screw_speed" in uncertain:
         uncertain["screw_speed"] = scaled(uncertain["screw_speed"], case.screw.lead / here["lead"])
-    calibrated = () if case.calibration is None else case.calibration.parameters.values()
-    at = dataclasses.replace(
-        case,
-        model=there.model,
-        screw=there.screw,
-        lubricant=there.lubricant,
-        uncertain=uncertain,
-        exact=(case.exact - varied) | varied.intersection(calibrated),
-    )
+    calibrated = () if case.origins.calibration is None else case.origins.calibration.parameters.values()
+    exact = (case.origins.exact - varied) | varied.intersection(calibrated)
+    origins = dataclasses.replace(case.origins, uncertain=uncertain, exact=exact)
+    at = dataclasses.replace(case, model=there.model, screw=there.screw, lubricant=there.lubricant, origins=origins)
     result = uncertain_inputs.all_of(at, only_given)
     return _Inputs(at, *compute.distributions(at, result))

@@ -428,7 +428,7 @@ def sweep(
 
         wanted = tuple(name for name in names if name not in _heat())
         return self_heating.swept(case, wanted, {**plan.axes, **fixed}, done)
-    oil = {f"lubricant_{name}": value for name, value in case.oil.items() if name not in plan.axes}
+    oil = {f"lubricant_{name}": value for name, value in case.origins.oil.items() if name not in plan.axes}
     if to is not None and is_store(to):
         swept = _swept(case, plan, tuple(names))
         return stream(swept, to, done=done, cluster=cluster, attributes=oil, verify=verify, trust=trust)
@@ -489,7 +489,7 @@ def starved(dataset: xr.Dataset) -> list[Record]:
 def unvaried(case: Case, plan: Plan) -> dict[str, Any]:
     """The load and the speed that are not varied; that of a nut whose lead is varied is one for each lead."""
     values: dict[str, Any] = {name: getattr(case.operation, name) for name in OPERATION if name not in plan.axes}
-    if "screw_speed" in values and "lead" in plan.axes and case.speed_of_nut:
+    if "screw_speed" in values and "lead" in plan.axes and case.origins.speed_of_nut:
         leads = plan.axes["lead"]
         speeds = values["screw_speed"] * case.screw.lead / leads
         attributes = attributes_of(plan.quantities["lead"])

@@ -9,7 +9,7 @@ import numpy as np
 
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import uncertain_inputs
-from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.case import Case, Origins
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
@@ -49,9 +49,7 @@ def _case(entry: Entry, at: OperatingPoint) -> Case:
         screw=at.screw,
         lubricant=at.lubricant,
         operation=OperatingState(at.axial_load, at.screw_speed),
-        sweep={},
-        oil={},
-        calibration=None if entry.calibration is None else calibrations()[entry.calibration],
+        origins=Origins(calibration=None if entry.calibration is None else calibrations()[entry.calibration]),
     )
 
 

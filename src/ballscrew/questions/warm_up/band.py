@@ -80,19 +80,17 @@ def band(
 
 def inputs_of(case: Case, network: Network, only_given: bool) -> Mapping[str, Uncertain]:
     """The uncertain inputs: those of the friction, and those of the surroundings; none that is computed here."""
-    known = dataclasses.replace(
-        case,
-        exact=case.exact | _OWN,
-        uncertain={name: one for name, one in case.uncertain.items() if name not in _OWN},
-    )
+    others = {name: one for name, one in case.origins.uncertain.items() if name not in _OWN}
+    origins = dataclasses.replace(case.origins, exact=case.origins.exact | _OWN, uncertain=others)
+    known = dataclasses.replace(case, origins=origins)
     inputs = {name: one for name, one in uncertain_inputs.all_of(known, only_given).items() if name not in _OWN}
     quantities = fields_of(Surroundings)
-    given = case.uncertain_surroundings
+    given = case.origins.uncertain_surroundings
     for name, distribution in given.items():
         description = describe_distribution(distribution, quantities[name.removeprefix(PREFIX)])
         inputs[name] = Uncertain(distribution, GIVEN, True, description)
     if not only_given:
-        names = [name for name in VARIED if PREFIX + name not in {*given, *case.exact}]
+        names = [name for name in VARIED if PREFIX + name not in {*given, *case.origins.exact}]
         for name, distribution in uncertain_surroundings(network, names).items():
             why = default_uncertainties()[name]
             description = describe_distribution(distribution, quantities[name.removeprefix(PREFIX)])

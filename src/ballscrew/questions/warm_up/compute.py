@@ -193,7 +193,7 @@ def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length
         names.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
     defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
     for name in OF_DEFAULTS:
-        if getattr(given, name) == defaults[name] and name not in case.given_surroundings:
+        if getattr(given, name) == defaults[name] and name not in case.origins.given_surroundings:
             meaning, value = _OF[name].info.meaning, units.shown(defaults[name], _OF[name])
             names.append(f"{meaning} {value}: the default")
     return names

@@ -196,7 +196,8 @@ def _warm(case: Case, end: Equilibrium) -> Case:
     screw, oil = case.screw, case.lubricant.at(end.oil_temperature)
     if end.network.preload_set:
         screw = dataclasses.replace(screw, nut=screw.nut.changed("preload", end.preload))
-    return dataclasses.replace(case, screw=screw, lubricant=oil, oil={**case.oil, "temperature": end.oil_temperature})
+    of_oil = {**case.origins.oil, "temperature": end.oil_temperature}
+    return dataclasses.replace(case, screw=screw, lubricant=oil, origins=dataclasses.replace(case.origins, oil=of_oil))
 
 
 def _point_of(case: Case) -> Case:
