@@ -32,7 +32,7 @@ from warm_process import run_pytest
 
 WORK = ROOT / "out" / "mutation"
 #: Files without results: what is read, drawn, or only described.
-NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py", "response.py", "options.py", "answer.py")
+NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py", "options.py")
 #: A run of tests that takes so many times as long as they do, and so many seconds more, has noticed the change.
 LONGER, SECONDS_MORE = 4.0, 60.0
 PYTEST = ("-n0", "-q", "-p", "no:randomly")
