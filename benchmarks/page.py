@@ -1,7 +1,7 @@
 """How long the page takes: to its first chart, and from a key to its numbers, its first chart, and all of it.
 
 Each time ends when the browser has painted. The first chart is timed in a browser that has never seen the page and that
-nobody looks into meanwhile: to be driven by a program slows plotly.js down by half.
+no program drives meanwhile.
 """
 
 from __future__ import annotations
