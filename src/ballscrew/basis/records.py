@@ -18,7 +18,7 @@ from ballscrew.basis.quantities import Mask, Quantity, Ratio
 Severity = Literal["info", "warning", "error"]
 
 
-@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, slots=True)
 class Record:
     """One verdict, check or warning.
 
@@ -33,11 +33,26 @@ class Record:
     subject: str
     #: One sentence for people, with its units.
     text: str
+    _: dataclasses.KW_ONLY
     severity: Severity = "info"
     holds: bool | None = None
     value: float | None = None
     limit: float | None = None
     unit: str = "1"
+
+    @classmethod
+    def warning(
+        cls,
+        id: str,
+        subject: str,
+        text: str,
+        *,
+        value: float | None = None,
+        limit: float | None = None,
+        unit: str = "1",
+    ) -> Record:
+        """A warning: what should hold does not."""
+        return cls(id, subject, text, severity="warning", holds=False, value=value, limit=limit, unit=unit)
 
     @property
     def name(self) -> str:
@@ -205,9 +220,9 @@ class Judgement:
         holds = holds if values.get("judged", True) else None
         fails = holds is False and self.severity_of_failure is not None
         return Record(
-            id=self.id,
-            subject=self.subject,
-            text=self.text(values, words),
+            self.id,
+            self.subject,
+            self.text(values, words),
             severity=self.severity_of_failure or self.severity if fails else self.severity,
             holds=holds,
             value=float(values["value"]) if "value" in values else None,

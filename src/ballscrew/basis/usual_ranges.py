@@ -121,14 +121,10 @@ def _record(subject: str, quantity: Quantity, value: float, written: Written) ->
     assert quantity.info.usual is not None
     low, high = quantity.info.usual
     number, least, most = (written(one, quantity) for one in (value, low, high))
-    return Record(
-        id=IMPLAUSIBLE,
-        subject=subject,
-        text=(
-            f"{quantity.info.meaning} {number} lies outside the usual {least} to {most}: check the number and its unit"
-        ),
-        severity="warning",
-        holds=False,
+    return Record.warning(
+        IMPLAUSIBLE,
+        subject,
+        f"{quantity.info.meaning} {number} lies outside the usual {least} to {most}: check the number and its unit",
         value=value,
         limit=high if value > high else low,
         unit=quantity.unit,

@@ -46,7 +46,7 @@ class Target(NamedTuple):
 def warning(name: str, subject: str, text: str, **numbers: Any) -> Record:
     """A warning of an export, ``hand_over.`` and a name; ``numbers`` are further fields of the record."""
     fields: dict[str, Any] = {"severity": "warning", "holds": False, **numbers}
-    return Record(text=text, id=f"hand_over.{name}", subject=subject, **fields)
+    return Record(f"hand_over.{name}", subject, text, **fields)
 
 
 def refusal(name: str, problem: str, given: str = "", remedy: str = "") -> InputError:

@@ -281,9 +281,7 @@ class BearingFriction(ByValue):
         message = (
             "one row carries no load in the other direction: it was computed for the size of the load; take a pair"
         )
-        lifted = Record(
-            text=message, id=f"validity.{DIRECTION}", subject="bearing.rows", severity="warning", holds=False
-        )
+        lifted = Record.warning(f"validity.{DIRECTION}", "bearing.rows", message)
         return [*self.balls.warning_records, lifted]
 
 

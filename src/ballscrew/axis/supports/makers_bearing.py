@@ -81,7 +81,7 @@ class MakersFriction(ByValue):
         if np.all(self.validity["inputs"]):
             return []
         message = "the friction is not a finite number somewhere: check load, speed and oil"
-        return [Record(text=message, id="validity.inputs", subject="inputs", severity="warning", holds=False)]
+        return [Record.warning("validity.inputs", "inputs", message)]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)

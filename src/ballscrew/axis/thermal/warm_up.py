@@ -342,9 +342,9 @@ def _records(result: WarmUp) -> list[Record]:
         )
     verdicts = [
         Record(
-            text=message,
-            id="verdict.equilibrium",
-            subject="equilibrium",
+            "verdict.equilibrium",
+            "equilibrium",
+            message,
             severity="info" if end.exists and end.margin > 0 else "error",
             holds=end.exists,
             value=end.margin,
@@ -358,27 +358,16 @@ def _records(result: WarmUp) -> list[Record]:
             "the growth of the shaft between the halves of the nut is left out, as it is not said how they are "
             f"braced: {endings}; give [surroundings] bracing"
         )
-        verdicts.append(Record(text=message, id="warning.bracing", subject="preload", severity="warning", holds=False))
+        verdicts.append(Record.warning("warning.bracing", "preload", message))
     if result.stopped is not None:
         time = units.shown(result.stopped, _HOURS, 3)
         message = f"stopped after {time}: beyond it oil or preload are outside what the model knows"
-        verdicts.append(
-            Record(text=message, id="warning.stopped", subject="time", severity="error", value=result.stopped, unit="s")
-        )
+        verdicts.append(Record("warning.stopped", "time", message, severity="error", value=result.stopped, unit="s"))
     left = result.stretch_left
     if left is not None and np.min(left) < 0:
         stretch = units.shown(np.min(left), _STRETCH, 2)
         message = f"the stretch of the shaft is lost: {stretch} at the worst, and the shaft pushes"
         verdicts.append(
-            Record(
-                text=message,
-                id="verdict.stretch",
-                subject="stretch",
-                severity="warning",
-                holds=False,
-                value=float(np.min(left)),
-                limit=0.0,
-                unit="m",
-            )
+            Record.warning("verdict.stretch", "stretch", message, value=float(np.min(left)), limit=0.0, unit="m")
         )
     return verdicts

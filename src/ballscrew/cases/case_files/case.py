@@ -260,30 +260,13 @@ def _light(axis: Axis | None, screw: BallScrew) -> list[Record]:
         f"moved mass {units.shown(axis.mass, quantity)} is less than that of the nut, about "
         f"{units.shown(nut, quantity, 2)}: check the number and its unit"
     )
-    return [
-        Record(
-            text=message,
-            id=IMPLAUSIBLE,
-            subject="axis.mass",
-            severity="warning",
-            holds=False,
-            value=float(axis.mass),
-            limit=nut,
-            unit="kg",
-        )
-    ]
+    return [Record.warning(IMPLAUSIBLE, "axis.mass", message, value=float(axis.mass), limit=nut, unit="kg")]
 
 
 def _of_fit(table: Mapping[str, Any]) -> list[Record]:
     """What the fit that a case is from said of its own numbers: which of them no screw has."""
     return [
-        Record(
-            text=f"calibrated, and {text}",
-            id="calibration.implausible",
-            subject=f"calibration.{place}",
-            severity="warning",
-            holds=False,
-        )
+        Record.warning("calibration.implausible", f"calibration.{place}", f"calibrated, and {text}")
         for place, text in enumerate(table.get("verdicts", ()))
     ]
 
@@ -299,12 +282,10 @@ def _of_other_nuts(calibration: Calibration | None, nut: Nut) -> list[Record]:
         f"{contacts}"
     )
     return [
-        Record(
-            text=message,
-            id="calibration.other_nuts",
-            subject="model.calibration",
-            severity="warning",
-            holds=False,
+        Record.warning(
+            "calibration.other_nuts",
+            "model.calibration",
+            message,
             value=float(nut.contacts_per_ball),
             limit=float(calibration.contacts_per_ball[0]),
         )
@@ -328,14 +309,8 @@ def _not_reacted(model: FrictionModel, lubricant: Lubricant) -> list[Record]:
         f"boundary friction of {units.number(friction)} is that of surfaces that have reacted with additives{reason}"
     )
     return [
-        Record(
-            text=message,
-            id="friction.not_reacted",
-            subject="model.friction",
-            severity="warning",
-            holds=False,
-            value=float(friction),
-            limit=FRESH_BOUNDARY_FRICTION,
+        Record.warning(
+            "friction.not_reacted", "model.friction", message, value=float(friction), limit=FRESH_BOUNDARY_FRICTION
         )
     ]
 
@@ -351,12 +326,10 @@ def _too_many_balls(screw: BallScrew, row: CatalogueRow | None) -> list[Record]:
         return []
     balls, turns, room = (units.number(count) for count in (screw.loaded_balls, row.turns, most))
     return [
-        Record(
-            id=IMPLAUSIBLE,
-            subject="screw.loaded_balls",
-            text=f"{balls} loaded balls, and the {turns} turns of {row.name} hold {room}: check the number",
-            severity="warning",
-            holds=False,
+        Record.warning(
+            IMPLAUSIBLE,
+            "screw.loaded_balls",
+            f"{balls} loaded balls, and the {turns} turns of {row.name} hold {room}: check the number",
             value=float(screw.loaded_balls),
             limit=float(most),
         )

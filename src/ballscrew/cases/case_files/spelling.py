@@ -75,16 +75,7 @@ def _doubt(where: str, text: str, quantity: Quantity, rating: float | None) -> R
     )
     decimal = f"{_decimal(match)}0 {unit}".strip() if _EITHER.fullmatch(plain) else plain  # which is not asked again
     message = f'"{text.strip()}" is read as {plain}: write "{with_thousands}" if that is meant, else "{decimal}"'
-    return Record(
-        id=THOUSANDS,
-        subject=where,
-        text=message,
-        severity="warning",
-        holds=False,
-        value=read,
-        limit=other,
-        unit=quantity.unit,
-    )
+    return Record.warning(THOUSANDS, where, message, value=read, limit=other, unit=quantity.unit)
 
 
 def _decimal(match: re.Match[str]) -> str:

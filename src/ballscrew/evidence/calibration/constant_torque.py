@@ -37,14 +37,5 @@ def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str
         "balls does not; free it"
     )
     return [
-        Record(
-            text=message,
-            id="fit.free_more",
-            subject=CONSTANT_TORQUE.name,
-            severity="warning",
-            holds=False,
-            value=after,
-            limit=_WORTH * before,
-            unit="N m",
-        )
+        Record.warning("fit.free_more", CONSTANT_TORQUE.name, message, value=after, limit=_WORTH * before, unit="N m")
     ]

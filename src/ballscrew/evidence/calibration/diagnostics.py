@@ -71,16 +71,7 @@ def _warning(
     limit: float | None = None,
     unit: str = "1",
 ) -> Record:
-    return Record(
-        text=text,
-        id=f"fit.{name}",
-        subject=subject,
-        severity="warning",
-        holds=False,
-        value=value,
-        limit=limit,
-        unit=unit,
-    )
+    return Record.warning(f"fit.{name}", subject, text, value=value, limit=limit, unit=unit)
 
 
 def product_of_powers(powers: Mapping[str, float]) -> str:

@@ -110,9 +110,9 @@ def _record(estimate: Estimate, limit: _Range) -> Record:
         "the model lacks, or hold this number"
     )
     return Record(
-        id="fit.implausible",
-        subject=estimate.name,
-        text=message,
+        "fit.implausible",
+        estimate.name,
+        message,
         severity="warning" if reaches else "error",
         holds=None if reaches else False,
         value=estimate.value,

@@ -403,7 +403,7 @@ def _estimates(
 
 
 def _remarks(power: PowerLaw | None) -> list[Record]:
-    remarks = [Record(text=_GRAVITY, id="fit.gravity_or_offset", subject="offset", holds=False)]
+    remarks = [Record("fit.gravity_or_offset", "offset", _GRAVITY, holds=False)]
     if power is None:
         remarks.append(_warning("no_exponent", "speed_exponent", _NO_EXPONENT))
     return remarks
@@ -415,7 +415,7 @@ def _is_off(screw: ScrewModelFit | None, linear: LinearModel) -> bool:
 
 
 def _warning(name: str, subject: str, message: str) -> Record:
-    return Record(text=message, id=f"fit.{name}", subject=subject, severity="warning", holds=False)
+    return Record.warning(f"fit.{name}", subject, message)
 
 
 def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) -> list[Record]:

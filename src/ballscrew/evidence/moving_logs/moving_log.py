@@ -145,10 +145,6 @@ def quantities() -> Mapping[str, Quantity]:
     }
 
 
-#: The gain of a control voltage to the force at the nut.
-GAIN = Quantity("gain", "N/V", Info("g_\\tau", "force at the nut for each volt of the control voltage", above=0))
-
-
 def _check_length(name: str, rows: int) -> None:
     if rows < LEAST_ROWS:
         remedy = f"record {LEAST_ROWS} rows or more, with several strokes in both directions"

@@ -110,7 +110,7 @@ def _not_told(names: list[str]) -> Record:
     numbers = " and ".join(map(spoken, names))
     problem = f"cannot tell {numbers} apart" if len(names) > 1 else f"does not tell the {numbers}"
     message = f"the log {problem} · {remedy}"
-    return Record(text=message, id="fit.not_identified", subject=",".join(names), severity="warning", holds=False)
+    return Record.warning("fit.not_identified", ",".join(names), message)
 
 
 def unit_change(equation: Equation, name: str) -> Fault | None:

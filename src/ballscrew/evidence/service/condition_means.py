@@ -138,12 +138,10 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
         notes += [f"{name}: {line}" for line in (clean.usage, *clean.notes)]
         if not (np.any(clean.forward) and np.any(clean.backward)):
             warnings.append(
-                Record(
-                    text=f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both",
-                    id="condition.one_direction",
-                    subject=name,
-                    severity="warning",
-                    holds=False,
+                Record.warning(
+                    "condition.one_direction",
+                    name,
+                    f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both",
                 )
             )
     raise_if_any(faults)

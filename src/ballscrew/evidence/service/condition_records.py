@@ -69,7 +69,7 @@ def records_of(
 
 def _warning(name: str, subject: str, text: str, **more: Any) -> Record:
     fields: dict[str, Any] = {"severity": "warning", **more}
-    return Record(text=text, id=f"condition.{name}", subject=subject, **fields)
+    return Record(f"condition.{name}", subject, text, **fields)
 
 
 def _starved(means: Means, subject: Configuration, graded: bool) -> list[Record]:
@@ -231,7 +231,7 @@ def _alarm(made: Condition, reduction: Reduction) -> Record:
     )
     if made.alarm is None:
         text = f"no alarm: the torque is as in the first {made.baseline} tests, within its scatter ({rate})"
-        return Record(text=text, id="condition.alarm", subject="torque", holds=True)
+        return Record("condition.alarm", "torque", text, holds=True)
     change = math.expm1(float(reduction.torque[made.alarm] - np.mean(reduction.torque[: made.baseline])))
     test, way = made.states[made.alarm].label, "fallen" if made.chart.falls else "risen"
     text = f"alarm at {test}: the torque has {way} beyond its scatter, {units.change(change)} ({rate})"
@@ -244,16 +244,14 @@ def _alarm(made: Condition, reduction: Reduction) -> Record:
         text += (
             "; wear takes torque: look for dirt, lack of lubricant, another oil, a nut that was adjusted or exchanged"
         )
-    return Record(
-        text=text, id="condition.alarm", subject="torque", severity="warning", holds=False, value=float(made.alarm)
-    )
+    return Record.warning("condition.alarm", "torque", text, value=float(made.alarm))
 
 
 def _preload(made: Condition) -> Record:
     last = made.states[-1]
     if not math.isfinite(last.preload):
         text = "the preload cannot be told from the last test: see the warnings"
-        return Record(text=text, id="condition.preload_left", subject=PRELOAD, severity="warning")
+        return Record("condition.preload_left", PRELOAD, text, severity="warning")
     probability = min(max(made.probability_of_loss, 0.001), 0.999)
     share, low, high, least = (
         units.percent(value) for value in (last.preload, last.preload_low, last.preload_high, 1 - made.tolerance)
@@ -265,9 +263,9 @@ def _preload(made: Condition) -> Record:
     if made.lost_since is not None:
         text += f"; the interval lies below all of it since {made.states[made.lost_since].label}"
     return Record(
-        text=text,
-        id="condition.preload_left",
-        subject=PRELOAD,
+        "condition.preload_left",
+        PRELOAD,
+        text,
         value=last.preload,
         limit=1 - made.tolerance,
         holds={"lost": False, "kept": True, "open": None}[made.verdict],
@@ -294,15 +292,7 @@ def _of_trend(made: Condition) -> list[Record]:
         text += ": none can be told"
     unit = "1" if made.per == "test" else "1/s"
     return [
-        Record(
-            text=text,
-            id="condition.trend",
-            subject=PRELOAD,
-            holds=made.trend.told,
-            value=made.trend.slope,
-            limit=0.0,
-            unit=unit,
-        )
+        Record("condition.trend", PRELOAD, text, holds=made.trend.told, value=made.trend.slope, limit=0.0, unit=unit)
     ]
 
 
@@ -314,9 +304,7 @@ def _parts(made: Condition) -> list[Record]:
         if not part.told:
             text += "; not told from the others"
         unit = {CONSTANT: "N m", WARMER: "K"}.get(name, "1")
-        records.append(
-            Record(text=text, id="condition.part", subject=name, value=part.value, unit=unit, holds=part.told)
-        )
+        records.append(Record("condition.part", name, text, value=part.value, unit=unit, holds=part.told))
     return records
 
 
@@ -375,4 +363,4 @@ def _of_boundary_friction(reduction: Reduction, subject: Configuration, change: 
 
 
 def _cause(name: str, text: str, value: float | None, limit: float | None, unit: str, holds: bool | None) -> Record:
-    return Record(text=text, id="condition.alternative", subject=name, value=value, limit=limit, unit=unit, holds=holds)
+    return Record("condition.alternative", name, text, value=value, limit=limit, unit=unit, holds=holds)

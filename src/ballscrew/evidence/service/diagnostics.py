@@ -139,7 +139,7 @@ def warning_records(
 
 def _record(name: str, subject: str, text: str, **more: Any) -> Record:
     fields: dict[str, Any] = {"severity": "warning", "holds": False, **more}
-    return Record(text=text, id=f"service.{name}", subject=subject, **fields)
+    return Record(f"service.{name}", subject, text, **fields)
 
 
 def _log_record(name: str, label: str, subject: str, text: str, **more: Any) -> Record:

@@ -83,17 +83,7 @@ def odd_preload(screw: Any, written: Written = units.shown) -> list[Record]:
         f"rating {written(ratings.flat[at], _RATING)}, computed from the geometry; nuts have 2 % to 10 %: check the "
         "number and its unit"
     )
-    return [
-        Record(
-            id=IMPLAUSIBLE,
-            subject="nut.preload",
-            text=message,
-            severity="warning",
-            holds=False,
-            value=share,
-            limit=high if share > high else low,
-        )
-    ]
+    return [Record.warning(IMPLAUSIBLE, "nut.preload", message, value=share, limit=high if share > high else low)]
 
 
 STEEL = Material()

@@ -102,12 +102,10 @@ def records(numbers: Sequence[BothTorques], remark: str | None = None) -> list[R
         )
     text = _SENTENCE.format(given=as_given, flooded=_listed(flooded))
     return [
-        Record(
-            id=STARVED,
-            subject=first.quantity.name,
-            text=f"{text}; {remark}" if remark else text,
-            severity="warning",
-            holds=False,
+        Record.warning(
+            STARVED,
+            first.quantity.name,
+            f"{text}; {remark}" if remark else text,
             value=first.flooded,
             limit=first.given,
             unit=first.quantity.unit,

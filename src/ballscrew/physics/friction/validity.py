@@ -124,12 +124,10 @@ def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
         "inlet.replenishment_constant = 6e-8"
     )
     return [
-        Record(
-            id="lubricant.grease_as_oil",
-            subject="model.inlet.replenishment_constant",
-            text=message,
-            severity="warning",
-            holds=False,
+        Record.warning(
+            "lubricant.grease_as_oil",
+            "model.inlet.replenishment_constant",
+            message,
             value=least,
             limit=GREASE_REPLENISHMENT,
         )
@@ -137,16 +135,7 @@ def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
 
 
 def _of_sheet(name: str, text: str, value: float, limit: float) -> Record:
-    return Record(
-        id=f"lubricant.{name}",
-        subject="lubricant.temperature",
-        text=text,
-        severity="warning",
-        holds=False,
-        value=value,
-        limit=limit,
-        unit="K",
-    )
+    return Record.warning(f"lubricant.{name}", "lubricant.temperature", text, value=value, limit=limit, unit="K")
 
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).

@@ -120,9 +120,9 @@ class Check(NamedTuple):
     def record(self) -> Record:
         """The check as a record of a document: an error where it fails, a note where it is not judged."""
         return Record(
-            id=f"check.{self.name}",
-            subject=self.name,
-            text=self.text,
+            f"check.{self.name}",
+            self.name,
+            self.text,
             severity="error" if self.holds is False else "info",
             holds=self.holds,
             value=self.value,

@@ -364,12 +364,4 @@ def _balls(row: CatalogueRow, ball: Estimate | None) -> Estimate:
 
 
 def _warning(subject: str, value: float, message: str, limit: float | None = None) -> Record:
-    return Record(
-        id=IMPLAUSIBLE,
-        subject=f"screw.{subject}",
-        text=message,
-        severity="warning",
-        holds=False,
-        value=value,
-        limit=limit,
-    )
+    return Record.warning(IMPLAUSIBLE, f"screw.{subject}", message, value=value, limit=limit)

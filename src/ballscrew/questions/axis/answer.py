@@ -136,7 +136,7 @@ class ChainReport:
         at = self.softest
         if not math.isfinite(float(self.chain.total[at])):
             unknown = "rigidity not known: a nut without preload has none without a load"
-            return Record(text=unknown, id="verdict.rigidity", subject="total", severity="warning")
+            return Record("verdict.rigidity", "total", unknown, severity="warning")
         shares = {name: float(share[at]) for name, share in self.chain.shares.items()}
         most = max(shares, key=lambda name: shares[name])
         total = float(self.chain.total[at])
@@ -145,7 +145,7 @@ class ChainReport:
             f"softest in its travel with the nut at {self._place(at)}: {rigidity}, "
             f"{units.number(100 * shares[most], 2)} % of the compliance is that of the {most}"
         )
-        return Record(text=message, id="verdict.rigidity", subject="total", value=total, unit="N/m")
+        return Record("verdict.rigidity", "total", message, value=total, unit="N/m")
 
     def _speed_record(self) -> Record:
         at, share = self.lowest_critical_speed, float(self.case.limits.critical_speed_share)
@@ -160,9 +160,9 @@ class ChainReport:
             "as in the checks"
         )
         return Record(
-            text=message,
-            id="verdict.critical_speed",
-            subject="critical_speed",
+            "verdict.critical_speed",
+            "critical_speed",
+            message,
             value=self.largest_speed,
             limit=share * critical,
             unit="rad/s",
@@ -182,9 +182,9 @@ class ChainReport:
             f"{units.number(safety)} is asked for"
         )
         return Record(
-            text=message,
-            id="verdict.buckling",
-            subject="buckling_load",
+            "verdict.buckling",
+            "buckling_load",
+            message,
             value=self.largest_load,
             limit=buckling / safety,
             unit="N",

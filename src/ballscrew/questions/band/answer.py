@@ -155,10 +155,10 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     quantity = known_outputs(case.screw.nut)[_TORQUE].quantity
     if not math.isfinite(torque.median):
         message = "no band: the friction torque is no number here"
-        return [Record(text=message, id="band.no_torque", subject=_TORQUE, severity="warning", unit=quantity.unit)]
+        return [Record("band.no_torque", _TORQUE, message, severity="warning", unit=quantity.unit)]
     if float(case.operation.axial_load) == 0 and torque.both == (0.0, 0.0):
         message = "no band: without load there is no friction torque"
-        return [Record(text=message, id="band.no_load", subject="axial_load", value=0.0, unit="N")]
+        return [Record("band.no_load", "axial_load", message, value=0.0, unit="N")]
     low, high = units.ends(*torque.both, quantity)
     causes = "inputs and laws" if band.alternatives else "the inputs alone"
     message = (
@@ -166,7 +166,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
         f"{units.shown(torque.median, quantity)}, {units.number(100 * band.level)} % of the samples of {causes} "
         f"between {low} and {high}"
     )
-    records = [Record(text=message, id="band.torque", subject=_TORQUE, value=torque.median, unit=quantity.unit)]
+    records = [Record("band.torque", _TORQUE, message, value=torque.median, unit=quantity.unit)]
     records += beside_laws(torque, quantity)
     records += _narrowing(report, case, quantity)
     records += _full_bath(report)
@@ -177,7 +177,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
             f"calibrated to {log if log else 'a log'}: what the fit held counts as known, no law is exchanged; on "
             f"rows held out the model was off by {_torque_in_file(off, quantity)}"
         )
-        records.append(Record(text=message, id="band.calibrated", subject="model"))
+        records.append(Record("band.calibrated", "model", message))
     if float(case.operation.axial_load) != 0:
         share = band.self_locking_share
         message = (
@@ -185,7 +185,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
             if share
             else "self-locking in none of the samples"
         )
-        records.append(Record(text=message, id="band.self_locking_share", subject="self_locking", value=share))
+        records.append(Record("band.self_locking_share", "self_locking", message, value=share))
     return records
 
 
@@ -210,7 +210,7 @@ def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Recor
         f"the band would narrow the most, to {units.number(100 * share, 2)} % of its width ({low} to {high}), if "
         f"this were known and as the model has it: {cause}"
     )
-    return [Record(text=message, id="band.narrowing", subject=_TORQUE, value=share)]
+    return [Record("band.narrowing", _TORQUE, message, value=share)]
 
 
 def _full_bath(report: BandReport) -> list[Record]:
@@ -231,9 +231,9 @@ def _full_bath(report: BandReport) -> list[Record]:
         )
     return [
         Record(
-            text=message,
-            id="band.flooded",
-            subject=_TORQUE,
+            "band.flooded",
+            _TORQUE,
+            message,
             severity="warning",
             holds=flooded <= high,
             value=flooded,
@@ -258,14 +258,7 @@ def _rules(case: Case, report: BandReport) -> list[Record]:
             f"the rule of {one.rule.label} gives {units.shown(torque, _KNOWN)} with the losses of the case: {side}"
         )
         rules.append(
-            Record(
-                text=message,
-                id=f"band.rule_{one.rule.name}",
-                subject="preload_drag",
-                holds=within,
-                value=torque,
-                unit=_KNOWN.unit,
-            )
+            Record(f"band.rule_{one.rule.name}", "preload_drag", message, holds=within, value=torque, unit=_KNOWN.unit)
         )
     return rules
 
@@ -286,7 +279,7 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     advice = f"expect the median {median} and for a motor take {units.shown(greatest, quantity, toward=1)}"
 
     def of_laws(name: str, text: str, number: float) -> Record:
-        return Record(text=text, id=f"band.{name}", subject=_TORQUE, value=number, unit=quantity.unit)
+        return Record(f"band.{name}", _TORQUE, text, value=number, unit=quantity.unit)
 
     records: list[Record] = []
     if both.high < inputs.high and high != inputs_high:
@@ -336,7 +329,7 @@ def warnings(report: BandReport) -> list[Record]:
 
 
 def _share(name: str, subject: str, message: str, value: float) -> Record:
-    return Record(text=message, id=name, subject=subject, severity="warning", holds=False, value=value, limit=0.0)
+    return Record.warning(name, subject, message, value=value, limit=0.0)
 
 
 def _torque_in_file(text: Any, quantity: Quantity) -> str:

@@ -130,7 +130,7 @@ class Checked:
         """The verdict on all checks, then those on the operating point."""
         holds = all_hold(self.checks)
         severity: Severity = "error" if holds is False else "warning" if self.case.unlikely else "info"
-        whole = Record(text=self.verdict, id="verdict.checks", subject="checks", severity=severity, holds=holds)
+        whole = Record("verdict.checks", "checks", self.verdict, severity=severity, holds=holds)
         return [whole, *self.run.verdicts]
 
     def check(self, name: str) -> Check:

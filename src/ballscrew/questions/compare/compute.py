@@ -291,7 +291,7 @@ def verdicts(result: Comparison) -> list[Record]:
             text = f"{text}; not valid here: {', '.join(outside)}"
         records.append(_spread_record("compare.models", text, result.spread_of_models))
     if result.spread_of_laws is None:
-        records.append(Record(text="none is valid here", id="compare.laws", subject=_TORQUE, holds=False))
+        records.append(Record("compare.laws", _TORQUE, "none is valid here", holds=False))
     else:
         valid = [row for row in (result.case, *result.laws) if row.candidate.counts and not row.outside]
         text = _spread(result.spread_of_laws, valid)
@@ -301,13 +301,13 @@ def verdicts(result: Comparison) -> list[Record]:
         most = list(spans.items())[:_MOST_SHOWN]
         effects = ", ".join(f"{_words(slot)} ({_span(span)})" for slot, span in most)
         slot, span = most[0]
-        records.append(Record(text=effects, id="compare.largest_effect", subject=slot, value=max(span, key=abs)))
+        records.append(Record("compare.largest_effect", slot, effects, value=max(span, key=abs)))
     return records
 
 
 def _spread_record(name: str, text: str, spread: TwoRows, holds: bool | None = None) -> Record:
     least, greatest = (row.torque for row in spread)
-    return Record(text=text, id=name, subject=_TORQUE, value=greatest - least, unit="N m", holds=holds)
+    return Record(name, _TORQUE, text, value=greatest - least, unit="N m", holds=holds)
 
 
 def _spread(spread: TwoRows, rows: Sequence[Row]) -> str:

@@ -75,14 +75,7 @@ def inertia(report: DutyReport) -> list[Record]:
         if missing := _not_given(report):
             message = f"{message}; not given: {missing}"
     return [
-        Record(
-            text=message,
-            id="verdict.inertia",
-            subject="inertia",
-            severity="info",
-            value=axis.turning_inertia,
-            unit=_INERTIA.unit,
-        )
+        Record("verdict.inertia", "inertia", message, severity="info", value=axis.turning_inertia, unit=_INERTIA.unit)
     ]
 
 
@@ -111,11 +104,7 @@ def _flank_changes(report: DutyReport) -> list[Record]:
     play = changes[0].lost_motion
     loses = f"the position loses the play of {units.shown(play, TRAVEL)}" if play else "nut.axial_play gives no play"
     message = f"the load changes its flank {len(changes)} times in a cycle, where {loses}: at {', '.join(places)}{more}"
-    return [
-        Record(
-            text=message, id="verdict.flank_changes", subject="lost_motion", value=play, limit=None, unit=TRAVEL.unit
-        )
-    ]
+    return [Record("verdict.flank_changes", "lost_motion", message, value=play, limit=None, unit=TRAVEL.unit)]
 
 
 def _brake(report: DutyReport) -> Record:
@@ -156,9 +145,9 @@ def _brake(report: DutyReport) -> Record:
     if brake.load_torque and report.duty.starved:
         message = f"{message}; with the smaller friction, that of the track starved of oil"
     return Record(
-        text=message,
-        id="verdict.brake",
-        subject="brake",
+        "verdict.brake",
+        "brake",
+        message,
         severity="warning" if brake.falls else "info",
         holds=not brake.falls,
         value=brake.holding_torque,
@@ -183,7 +172,7 @@ def _motor(report: DutyReport) -> list[Record]:
     if starvation.FULL_BATH in report.motor_check.torques:
         message = f"{message}; judged by the larger torque: {_conditions(report.motor_check)}"
     severity: Severity = "error" if failed else "info"
-    return [Record(text=message, id="verdict.motor", subject="motor", severity=severity, holds=not failed)]
+    return [Record("verdict.motor", "motor", message, severity=severity, holds=not failed)]
 
 
 def _conditions(against: MotorCheck) -> str:
@@ -203,7 +192,7 @@ def _checks(report: DutyReport) -> Record:
     words = with_unlikely(verdict_of(report.checks, passes=_PASSES), report.case)
     message = f"over the cycle: {words}"
     severity: Severity = "error" if holds is False else "warning" if report.case.unlikely else "info"
-    return Record(text=message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
+    return Record("verdict.checks", "checks", message, severity=severity, holds=holds)
 
 
 def warnings(report: DutyReport) -> list[Record]:
@@ -223,16 +212,7 @@ def warnings(report: DutyReport) -> list[Record]:
 
 
 def _warning(name: str, subject: str, message: str, value: float, limit: float | None, quantity: Quantity) -> Record:
-    return Record(
-        text=message,
-        id=f"duty.{name}",
-        subject=subject,
-        severity="warning",
-        holds=False,
-        value=value,
-        limit=limit,
-        unit=quantity.unit,
-    )
+    return Record.warning(f"duty.{name}", subject, message, value=value, limit=limit, unit=quantity.unit)
 
 
 def inertia_warnings(report: DutyReport) -> list[Record]:
@@ -331,9 +311,9 @@ def _short_reversal(report: DutyReport) -> list[Record]:
     )
     return [
         Record(
-            text=message,
-            id="duty.short_reversal",
-            subject="stroke",
+            "duty.short_reversal",
+            "stroke",
+            message,
             severity="info",
             value=short_reversal.stroke,
             limit=short_reversal.back,
@@ -408,14 +388,8 @@ def _validity(report: DutyReport) -> list[Record]:
         if not share or condition is None:
             continue
         validity.append(
-            Record(
-                text=_for_a_share(condition.text, share),
-                id=f"validity.{name}",
-                subject=condition.subject,
-                severity="warning",
-                holds=False,
-                value=share,
-                limit=0.0,
+            Record.warning(
+                f"validity.{name}", condition.subject, _for_a_share(condition.text, share), value=share, limit=0.0
             )
         )
     return validity
@@ -437,12 +411,10 @@ def _validity_of_elements(report: DutyReport) -> list[Record]:
             share = float(np.sum(weight * ~np.asarray(mask))) / max(float(np.sum(weight)), 1e-300)
             if share and name in known:
                 validity.append(
-                    Record(
-                        text=f"{element}: {_for_a_share(known[name], share)}",
-                        id=f"validity.{name}",
-                        subject=element.replace(" ", "_"),
-                        severity="warning",
-                        holds=False,
+                    Record.warning(
+                        f"validity.{name}",
+                        element.replace(" ", "_"),
+                        f"{element}: {_for_a_share(known[name], share)}",
                         value=share,
                         limit=0.0,
                     )

@@ -103,19 +103,13 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
     warnings = [*constant_torque_missed(model, refit), *of_model, *case.doubts]
     if again:
         message = "the case was fitted to this very log before: its errors are not taken as priors"
-        warnings.append(Record(text=message, id="fit.same_log", subject="priors", severity="warning", holds=False))
+        warnings.append(Record.warning("fit.same_log", "priors", message))
     test: NextTest | None = None
     try:
         test = model.next_test({**_limits_of_log(model), **options.limits})
     except InputError as error:  # the fit is valid without a next test
         warnings += [
-            Record(
-                text=f"no next test: {with_flag(fault, _FLAGS)}",
-                id="fit.no_next_test",
-                subject="next_test",
-                severity="warning",
-                holds=False,
-            )
+            Record.warning("fit.no_next_test", "next_test", f"no next test: {with_flag(fault, _FLAGS)}")
             for fault in error.faults
         ]
     verdicts = model.verdict_records

@@ -154,7 +154,7 @@ class ReversalReport:
         else:
             end = units.shown(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
             text = f"{start} less than {share} of the friction is back within {end}"
-        verdicts = [Record(text=text, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
+        verdicts = [Record("reversal.back", "screw_torque", text, value=place.screw_angle, unit="rad")]
         two = self.slip_elements[0]
         if self.dahl_first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
             first = units.shown(self.dahl_first.model.presliding_stiffness, STIFFNESS, 3)
@@ -165,20 +165,13 @@ class ReversalReport:
                 f"{units.percent(self.dahl.error.largest)} of the steady one"
             )
             verdicts.append(
-                Record(
-                    text=text,
-                    id="reversal.one_stiffness",
-                    subject="presliding_stiffness",
-                    value=self.dahl.error.largest,
-                )
+                Record("reversal.one_stiffness", "presliding_stiffness", text, value=self.dahl.error.largest)
             )
         off = units.percent(two.error.largest)
         text = f"one Maxwell-slip element is off by up to {off}"
         if len(two.elements) > 1:
             text = f"{len(two.elements)} Maxwell-slip elements are off by up to {off}"
-        verdicts.append(
-            Record(text=text, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest)
-        )
+        verdicts.append(Record("reversal.slip_elements", "slip_elements", text, value=two.error.largest))
         return verdicts
 
     @property
@@ -190,7 +183,7 @@ class ReversalReport:
                 "helix slip that comes back over degrees of the screw is a hypothesis: it is computed, and the log of "
                 "one axis (EMPS: guides, an unknown screw) is all that speaks for it"
             )
-            records.append(Record(text=text, id="reversal.hypothesis", subject="helix", severity="warning"))
+            records.append(Record("reversal.hypothesis", "helix", text, severity="warning"))
         ratio = float(self.reversal.bristles_over_model)
         if abs(ratio - 1) > BRISTLES_OFF:
             text = (
@@ -199,9 +192,9 @@ class ReversalReport:
             )
             records.append(
                 Record(
-                    text=text,
-                    id="reversal.bristles",
-                    subject="bristles_over_model",
+                    "reversal.bristles",
+                    "bristles_over_model",
+                    text,
                     severity="warning",
                     value=ratio,
                     limit=BRISTLES_OFF,
@@ -217,11 +210,9 @@ class ReversalReport:
                 "have no memory of turning points: no elements have both the curve and the work of all strokes"
             )
             worst = max(fit.work_error for fit in self.slip_elements)
-            records.append(
-                Record(text=text, id="reversal.work_of_elements", subject="slip_elements", severity="info", value=worst)
-            )
+            records.append(Record("reversal.work_of_elements", "slip_elements", text, severity="info", value=worst))
         text = "the stiffness of the first hundredths of a degree is known to a factor of three"
-        records.append(Record(text=text, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
+        records.append(Record("reversal.first_range", "spin_and_curvature", text, severity="info"))
         return [*records, *self.case.implausible()]
 
 

@@ -122,7 +122,7 @@ class RippleReport:
             f"the torque goes up and down by {_torque(ripple.peak_to_peak)}, {units.percent(ripple.relative)} of its "
             f"mean; its greatest order is {most.order:.3g} per turn ({most.name}), {_torque(most.amplitude)}"
         )
-        return Record(text=message, id="ripple.size", subject="peak_to_peak", value=ripple.peak_to_peak, unit="N m")
+        return Record("ripple.size", "peak_to_peak", message, value=ripple.peak_to_peak, unit="N m")
 
     def _fault(self, name: str, ripple: Ripple) -> Record:
         shown = shows(self.ripple, ripple)
@@ -132,7 +132,7 @@ class RippleReport:
             f"{name}: torque {'shows it' if shown else 'is a poor sensor of it'}, its mean is {mean} and its range "
             f"over the mean {range_over_mean} of what they were"
         )
-        return Record(text=message, id=f"ripple.{name.partition('=')[0]}", subject="torque", holds=shown)
+        return Record(f"ripple.{name.partition('=')[0]}", "torque", message, holds=shown)
 
 
 def shows(usual: Ripple, ripple: Ripple) -> bool:

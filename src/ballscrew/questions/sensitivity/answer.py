@@ -199,7 +199,7 @@ def verdicts(report: SensitivityReport) -> list[Record]:
 
     def verdict(name: str, subject: str, message: str, value: float | None = None, holds: bool | None = None) -> Record:
         limit = None if value is None else HALF
-        return Record(text=message, id=f"sensitivity.{name}", subject=subject, value=value, limit=limit, holds=holds)
+        return Record(f"sensitivity.{name}", subject, message, value=value, limit=limit, holds=holds)
 
     if result.is_constant:
         message = f"the {meaning} does not depend on any of these inputs"
@@ -228,18 +228,10 @@ def warnings(case: Case, report: SensitivityReport) -> list[Record]:
     if result.left_out:
         message = f"{units.fixed(result.left_out)} samples or trajectories are left out as they have no number"
         records.append(
-            Record(
-                text=message,
-                id="sensitivity.left_out",
-                subject=result.output,
-                severity="warning",
-                holds=False,
-                value=float(result.left_out),
-                limit=0.0,
-            )
+            Record.warning("sensitivity.left_out", result.output, message, value=float(result.left_out), limit=0.0)
         )
     if case.origins.calibration is not None:
-        records.append(Record(text=CORRELATED, id="sensitivity.correlated", subject="calibration", severity="warning"))
+        records.append(Record("sensitivity.correlated", "calibration", CORRELATED, severity="warning"))
     return records
 
 

@@ -172,7 +172,7 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
     change = report.change
     if not change.logarithm.told:
         text = "the preload cannot be told from this: see the warnings"
-        return [Record(text=text, id="service.preload_left", subject=PRELOAD, severity="warning")]
+        return [Record("service.preload_left", PRELOAD, text, severity="warning")]
     low, high = (units.percent(end) for end in change.ratio_interval())
     limit = 1 - change.tolerance
     preload = "nominal preload" if change.new.fit is None else "preload"
@@ -183,15 +183,7 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
     holds = {"lost": False, "kept": True, "open": None}[change.verdict]
     severity = "warning" if change.verdict == "lost" else "info"
     records = [
-        Record(
-            text=text,
-            id="service.preload_left",
-            subject=PRELOAD,
-            severity=severity,
-            holds=holds,
-            value=change.ratio,
-            limit=limit,
-        )
+        Record("service.preload_left", PRELOAD, text, severity=severity, holds=holds, value=change.ratio, limit=limit)
     ]
     return [*records, *(_of_alternative(one) for one in change.alternatives)]
 
@@ -216,9 +208,9 @@ def _of_alternative(one: Alternative) -> Record:
     if one.explains:
         text += f"; {_KNOWN[one.plausible]}"
     return Record(
-        text=text,
-        id="service.alternative",
-        subject=one.name,
+        "service.alternative",
+        one.name,
+        text,
         value=one.value,
         limit=one.instead_of,
         unit=one.quantity.unit,
@@ -237,7 +229,7 @@ def _of_reading(case: Case, report: ServiceReport) -> Record:
         share, least, most = (units.percent(force / nominal) for force in pair)
         text += f", {share} of the {units.shown(float(nominal), quantity)} of the case ({least} to {most})"
     text += _taken_at(case, report)
-    return Record(text=text, id="service.preload", subject=PRELOAD, value=report.preload.preload, unit="N")
+    return Record("service.preload", PRELOAD, text, value=report.preload.preload, unit="N")
 
 
 def _taken_at(case: Case, report: ServiceReport) -> str:

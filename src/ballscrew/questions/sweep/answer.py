@@ -117,17 +117,7 @@ def warnings(dataset: xr.Dataset) -> list[Record]:
     if not count:
         return []
     message = f"{units.number(count, 9)} of {units.number(valid.size, 9)} points lie outside the model's validity"
-    return [
-        Record(
-            text=message,
-            id="validity.points",
-            subject="valid",
-            severity="warning",
-            holds=False,
-            value=float(count),
-            limit=0.0,
-        )
-    ]
+    return [Record.warning("validity.points", "valid", message, value=float(count), limit=0.0)]
 
 
 class Sweep(schema(SweepResults), Said):

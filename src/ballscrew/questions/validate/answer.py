@@ -100,9 +100,9 @@ def checks(entry: Entry) -> list[Record]:
     message = f"{units.percent(share)} of the rows lie in their band"
     return [
         Record(
-            text=message,
-            id="validation.share_in_band",
-            subject=entry.data.name,
+            "validation.share_in_band",
+            entry.data.name,
+            message,
             severity="info" if share == 1 else "warning",
             holds=share == 1,
             value=share,
@@ -126,14 +126,8 @@ def warnings(entry: Entry) -> list[Record]:
 
 
 def _rows_record(name: str, subject: str, message: str, rows: int) -> Record:
-    return Record(
-        text=f"{units.fixed(rows)} rows: {message}",
-        id=f"validation.{name}",
-        subject=subject,
-        severity="warning",
-        holds=False,
-        value=float(rows),
-        limit=0.0,
+    return Record.warning(
+        f"validation.{name}", subject, f"{units.fixed(rows)} rows: {message}", value=float(rows), limit=0.0
     )
 
 

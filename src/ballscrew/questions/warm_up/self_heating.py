@@ -148,9 +148,9 @@ class SelfHeating:
             f"the thermal loop {end.shown_margin}, thermal runaway at 0"
         )
         return Record(
-            text=message,
-            id="verdict.self_heating",
-            subject="lubricant.temperature",
+            "verdict.self_heating",
+            "lubricant.temperature",
+            message,
             severity="info",
             holds=True,
             value=end.oil_temperature,

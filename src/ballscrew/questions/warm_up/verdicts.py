@@ -41,9 +41,9 @@ def _starved(report: WarmUpReport) -> list[Record]:
         return said
     message = "in a full bath of oil there is no steady state: thermal runaway, or too hot for the model"
     record = Record(
-        text=message,
-        id="verdict.equilibrium_of_full_bath",
-        subject="equilibrium",
+        "verdict.equilibrium_of_full_bath",
+        "equilibrium",
+        message,
         severity="error",
         holds=False,
         value=ends.margin,
@@ -73,9 +73,9 @@ def _preload(report: WarmUpReport) -> list[Record]:
         )
     return [
         Record(
-            text=message,
-            id="verdict.preload",
-            subject="preload",
+            "verdict.preload",
+            "preload",
+            message,
             severity="warning" if lost else "info",
             holds=not lost,
             value=farthest,
@@ -116,7 +116,7 @@ def band_records(warm_up_band_report: WarmUpBandReport) -> list[Record]:
             "the bands have the radial growth alone: how the halves of the nut are braced moves the preload "
             "farther; give [surroundings] bracing"
         )
-        said.append(Record(text=message, id="band.bracing", subject="preload", severity="warning"))
+        said.append(Record("band.bracing", "preload", message, severity="warning"))
     away, lost = 1 - bands.steady_share, 1 - float(bands.known_share[-1])
     if not away and not lost:
         return said
@@ -127,7 +127,7 @@ def band_records(warm_up_band_report: WarmUpBandReport) -> list[Record]:
     )
     return [
         *said,
-        Record(text=message, id="band.no_steady_state", subject="equilibrium", severity="warning", value=away),
+        Record("band.no_steady_state", "equilibrium", message, severity="warning", value=away),
     ]
 
 
@@ -141,9 +141,9 @@ def _assumed_length(report: WarmUpReport) -> list[Record]:
     )
     return [
         Record(
-            text=message,
-            id="warm_up.assumed_length",
-            subject="surroundings.shaft_length",
+            "warm_up.assumed_length",
+            "surroundings.shaft_length",
+            message,
             severity="warning",
             value=float(length),
             unit="m",
@@ -158,7 +158,7 @@ def _own_temperatures(report: WarmUpReport) -> list[Record]:
     message = (
         "the motion has temperatures of the oil of its own, which do not count: the oil is as warm as nut and shaft"
     )
-    return [Record(text=message, id="warm_up.own_temperatures", subject="motion.segment", severity="warning")]
+    return [Record("warm_up.own_temperatures", "motion.segment", message, severity="warning")]
 
 
 def _long_cycle(report: WarmUpReport) -> list[Record]:
@@ -172,8 +172,4 @@ def _long_cycle(report: WarmUpReport) -> list[Record]:
         "with the nut; torque is the mean of a cycle at the oil and preload of each instant, and the steady "
         "state that of heat spread over the stroke"
     )
-    return [
-        Record(
-            text=message, id="verdict.long_cycle", subject="motion", severity="info", holds=True, value=cycle, unit="s"
-        )
-    ]
+    return [Record("verdict.long_cycle", "motion", message, severity="info", holds=True, value=cycle, unit="s")]

@@ -16,28 +16,20 @@ from ballscrew.evidence.papers.olaru2005.verdicts import Finding
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Claim:
-    """A claim of the paper in short, its number, how it is judged, and what each model gives."""
+    """A claim of the paper in short, its number, how it is judged, and what each model gives, once it is checked."""
 
-    key: str
-    section: str
-    claim: str
-    paper: str
-    criterion: str
-    remark: str
-    findings: Mapping[str, Finding]
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class _Check:
-    """A claim before it is checked."""
-
-    key: str
     section: str
     claim: str
     paper: str
     criterion: str
     remark: str = ""
     find: Callable[[Observations], Finding]
+    findings: Mapping[str, Finding] = dataclasses.field(default_factory=dict[str, Finding])
+
+    @property
+    def key(self) -> str:
+        """The name of the function that judges it."""
+        return self.find.__name__
 
 
 def claims() -> tuple[Claim, ...]:
@@ -48,31 +40,21 @@ def claims() -> tuple[Claim, ...]:
 def judged(observed: Mapping[str, Observations], keys: tuple[str, ...] | None = None) -> tuple[Claim, ...]:
     """The claims (or those with these keys) for what was observed, by name."""
     return tuple(
-        Claim(
-            key=check.key,
-            section=check.section,
-            claim=check.claim,
-            paper=check.paper,
-            criterion=check.criterion,
-            remark=check.remark,
-            findings={name: check.find(seen) for name, seen in observed.items()},
-        )
-        for check in _CHECKS
-        if keys is None or check.key in keys
+        dataclasses.replace(claim, findings={name: claim.find(seen) for name, seen in observed.items()})
+        for claim in _CLAIMS
+        if keys is None or claim.key in keys
     )
 
 
-_CHECKS = (
-    _Check(
-        key="equilibrium",
+_CLAIMS = (
+    Claim(
         section="Abstract, §3, §9",
         claim="sliding forces follow from equilibrium, without integrating shear",
         paper="–",
         criterion="(24) and (25) close (22) and (23) of §3, relative to the sliding force",
         find=verdicts.equilibrium,
     ),
-    _Check(
-        key="closed_form",
+    Claim(
         section="§2.2",
         claim="the curvature moment integrates to (15)",
         paper="–",
@@ -80,8 +62,7 @@ _CHECKS = (
         remark="Exact without spin. Spin, which the paper leaves out, changes both sides.",
         find=verdicts.closed_form,
     ),
-    _Check(
-        key="offset",
+    Claim(
         section="§8",
         claim="Y may be imposed",
         paper="0.34",
@@ -90,8 +71,7 @@ _CHECKS = (
         "the corrected model solves for it.",
         find=verdicts.offset,
     ),
-    _Check(
-        key="effects",
+    Claim(
         section="Abstract, §9",
         claim="the sliding force holds all listed effects",
         paper="five effects",
@@ -99,8 +79,7 @@ _CHECKS = (
         remark="Complete as to the paper's list; spin, seals and the return path are not in it.",
         find=verdicts.effects,
     ),
-    _Check(
-        key="agreement",
+    Claim(
         section="Abstract, §1",
         claim="good agreement with published measurements",
         paper="no value printed",
@@ -108,8 +87,7 @@ _CHECKS = (
         remark="The sources are cited, but none of their values is printed.",
         find=verdicts.agreement,
     ),
-    _Check(
-        key="film_friction",
+    Claim(
         section="§5",
         claim="at low speed the film's friction is negligible beside the asperities'",
         paper="below 0.01 to 0.02",
@@ -117,8 +95,7 @@ _CHECKS = (
         remark="The film's own coefficient at low speed cannot be checked: no equation of the paper gives it.",
         find=verdicts.film_friction,
     ),
-    _Check(
-        key="threshold",
+    Claim(
         section="§5",
         claim="µ_a falls to 0.02 at a film parameter of 2.5 to 3",
         paper="λ = 2.5 to 3",
@@ -126,8 +103,7 @@ _CHECKS = (
         remark="At 2.5 to 3 the coefficient is below 0.02 indeed, but the clamp takes over much earlier.",
         find=verdicts.threshold,
     ),
-    _Check(
-        key="first_branch",
+    Claim(
         section="§5",
         claim="at very small speed µ_a reaches µ0 (first branch)",
         paper="µ_a ≥ µ0",
@@ -135,8 +111,7 @@ _CHECKS = (
         remark="The exponential is below one for every film, so the branch is dead but at rest.",
         find=verdicts.first_branch,
     ),
-    _Check(
-        key="regimes",
+    Claim(
         section="§5",
         claim="lubrication goes from limited through mixed to full film",
         paper="three regimes",
@@ -145,8 +120,7 @@ _CHECKS = (
         "at 0.02, which takes over at λ = 1.83.",
         find=verdicts.regimes,
     ),
-    _Check(
-        key="split_one",
+    Claim(
         section="§8, Fig. 5",
         claim="torques on screw and nut hardly differ at F_B = 1/z",
         paper="no important difference",
@@ -154,16 +128,14 @@ _CHECKS = (
         remark="In the balanced form the difference is z F_B d_m/2 (and the chain's curvature), whatever the speed.",
         find=verdicts.split_one,
     ),
-    _Check(
-        key="split_two",
+    Claim(
         section="§8, Fig. 5",
         claim="the difference grows with F_B = 2/z",
         paper="larger",
         criterion="mean |M_S − M_N|/M_S is larger than at 1/z",
         find=verdicts.split_two,
     ),
-    _Check(
-        key="which_torque",
+    Claim(
         section="§8, (36)",
         claim="M_S may stand for the friction in the efficiency",
         paper="–",
@@ -171,24 +143,21 @@ _CHECKS = (
         remark="M_S is right in any case: the power is supplied at the screw, and M_N is its reaction.",
         find=verdicts.which_torque,
     ),
-    _Check(
-        key="minimum",
+    Claim(
         section="§8, Fig. 6",
         claim="the torque has a minimum over speed",
         paper="200 to 300 rpm",
         criterion="speed of least torque within the paper's range",
         find=verdicts.minimum,
     ),
-    _Check(
-        key="falling",
+    Claim(
         section="§8, Fig. 6",
         claim="it falls first because the friction coefficient falls",
         paper="–",
         criterion="up to the minimum only curvature slip falls, and in the ratio of µ_m (within 5 %)",
         find=verdicts.falling,
     ),
-    _Check(
-        key="rising",
+    Claim(
         section="§8, Fig. 6",
         claim="it then rises because the hydrodynamic forces rise",
         paper="–",
@@ -196,32 +165,28 @@ _CHECKS = (
         remark="Curvature slip goes on falling past the minimum; hydrodynamic rolling outgrows it.",
         find=verdicts.rising,
     ),
-    _Check(
-        key="efficiency",
+    Claim(
         section="§8, Fig. 7",
         claim="efficiency over speed",
         paper="0.90 to 0.92",
         criterion="all values from 0 to 1000 rpm round into the paper's band",
         find=verdicts.efficiency,
     ),
-    _Check(
-        key="literature_efficiency",
+    Claim(
         section="Abstract, §8",
         claim="the efficiency agrees with the literature",
         paper="no value printed",
         criterion="needs the values of the literature",
         find=verdicts.literature_efficiency,
     ),
-    _Check(
-        key="load_torque",
+    Claim(
         section="§8, Fig. 8",
         claim="the torque rises with load",
         paper="rises",
         criterion="rises from each point of the load grid to the next, at 600 rpm",
         find=verdicts.load_torque,
     ),
-    _Check(
-        key="first_zone",
+    Claim(
         section="§8, Fig. 9",
         claim="efficiency rises from zero while Q goes from 0 to 20 N",
         paper="0 to 0.9",
@@ -229,16 +194,14 @@ _CHECKS = (
         remark="The start of the rise lies outside the validity of the equations (see the last claim on Fig. 9).",
         find=verdicts.first_zone,
     ),
-    _Check(
-        key="second_zone",
+    Claim(
         section="§8, Fig. 9",
         claim="efficiency is constant above 20 N",
         paper="0.90 to 0.92",
         criterion="all values from 20 N to the load of Fig. 6 round into the paper's band",
         find=verdicts.second_zone,
     ),
-    _Check(
-        key="zero",
+    Claim(
         section="§8, Fig. 9",
         claim="the efficiency starts at zero",
         paper="0 at Q = 0",
@@ -246,8 +209,7 @@ _CHECKS = (
         remark="The equations do give zero, but where F_S exceeds µQ the ball would skid and they no longer apply.",
         find=verdicts.zero,
     ),
-    _Check(
-        key="realistic",
+    Claim(
         section="§9",
         claim="torque and efficiency are realistic",
         paper="no value printed",
