@@ -58,7 +58,8 @@ export async function open(files) {
       const one = await sent(file);
       lines.push(...(await take(one, await read(one))));
     } catch (error) {
-      lines.push(`${file.name}: ${linesOf(error).join("; ")}`);
+      const said = linesOf(error).join("; ");
+      lines.push(said.startsWith(`${file.name}: `) ? said : `${file.name}: ${said}`); // a fault of a file names it
     }
   }
   return lines;

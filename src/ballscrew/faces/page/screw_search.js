@@ -63,7 +63,7 @@ export function setUp() {
     else
       count.textContent = isCode
         ? `${words} is not in the catalogue; ${names.length} of its size are:`
-        : `${names.length} of ${rows.size} screws`;
+        : `${names.length} of ${rows.size} screws${names.length > MOST_ROWS ? `; the first ${MOST_ROWS}:` : ""}`;
   }
 
   const own = namedButton("search-own", "A nut that is not listed …", () => views.go("choose.own"));
