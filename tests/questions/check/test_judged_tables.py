@@ -131,8 +131,9 @@ def test_all_records_of_a_run_have_rows():
     files = [file for room in ("questions/run", "questions/check", "physics") for file in (SOURCE / room).rglob("*.py")]
     nodes = [node for file in files for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))]
     calls = [node for node in nodes if isinstance(node, ast.Call) and isinstance(node.func, ast.Name | ast.Attribute)]
-    made = [call for call in calls if ast.unparse(call.func).rpartition(".")[2] in ("Record", "record")]
-    ids = {getattr(one.value, "value", None) for call in made for one in call.keywords if one.arg == "id"}
+    names = ("Record", "record", "Record.warning")
+    made = [call for call in calls if ast.unparse(call.func).removeprefix("records.") in names]
+    ids = {getattr(call.args[0], "value", None) for call in made if call.args}
     literal = {one for one in ids if isinstance(one, str) and "." in one}
     assert {one for one in literal if one.startswith(("verdict.", "validity.", "check.", "run."))} == {"verdict.checks"}
     assert len(ROWS) == len(JUDGED)
