@@ -46,7 +46,6 @@ class Record:
         id: str,
         subject: str,
         text: str,
-        *,
         value: float | None = None,
         limit: float | None = None,
         unit: str = "1",

@@ -63,17 +63,6 @@ def _starved(fit_result: FitResult) -> list[Record]:
     return fit_result.subject.starvation(rows, _OF_LOG)
 
 
-def _warning(
-    name: str,
-    subject: str,
-    text: str,
-    value: float | None = None,
-    limit: float | None = None,
-    unit: str = "1",
-) -> Record:
-    return Record.warning(f"fit.{name}", subject, text, value=value, limit=limit, unit=unit)
-
-
 def product_of_powers(powers: Mapping[str, float]) -> str:
     """A product of powers, the largest first: ``boundary_friction_coefficient^0.98 · decay^-0.20``."""
     largest = sorted(powers.items(), key=lambda item: -abs(item[1]))
@@ -105,33 +94,33 @@ def _not_identified(fit_result: FitResult) -> list[Record]:
             flat = f"near {_value(fit_result.estimates[name])} the torques of this log hardly depend on it"
             if with_prior:
                 text = f"{name} is known only together with its prior: {flat}"
-                records.append(_warning("confounded", name, text))
+                records.append(Record.warning("fit.confounded", name, text))
             else:
-                records.append(_warning("not_identified", name, f"{name} is not identified: {flat}"))
+                records.append(Record.warning("fit.not_identified", name, f"{name} is not identified: {flat}"))
         elif with_prior:
             text = (
                 f"{inputs} cannot be told apart by this log alone: the error of {' and '.join(with_prior)} stands on "
                 "the prior, what was known before"
             )
-            records.append(_warning("confounded", ",".join(names), text))
+            records.append(Record.warning("fit.confounded", ",".join(names), text))
         else:
             text = (
                 f"{inputs} cannot be told apart by this log: it says nothing of "
                 f"{product_of_powers(combination.powers)}; fix one of them, give one a prior, or measure elsewhere"
             )
-            records.append(_warning("confounded", ",".join(names), text))
+            records.append(Record.warning("fit.confounded", ",".join(names), text))
     if CONSTANT_TORQUE.name in without and not fit_result.problem.has_torque_offset:
         without.remove(CONSTANT_TORQUE.name)
         text = (
             f"{CONSTANT_TORQUE.name} is not identified: friction of one sign cannot be told from a zero error of the "
             "sensor; measure in both directions"
         )
-        records.append(_warning("one_direction", CONSTANT_TORQUE.name, text))
+        records.append(Record.warning("fit.one_direction", CONSTANT_TORQUE.name, text))
     # those of few rows, and those that stand on their prior, have records of their own
     without = [name for name in without if fit_result.estimates[name].prior_share <= PRIOR_SHARE]
     imprecise = [] if fit_result.has_few_rows else without
     imprecisely = "is not identified: it is known to less than half of its size"
-    return records + [_warning("imprecise", name, f"{name} {imprecisely}") for name in imprecise]
+    return records + [Record.warning("fit.imprecise", name, f"{name} {imprecisely}") for name in imprecise]
 
 
 def _of_bounds(fit_result: FitResult) -> list[Record]:
@@ -140,10 +129,10 @@ def _of_bounds(fit_result: FitResult) -> list[Record]:
     records: list[Record] = []
     for e in one_sided:
         text = f"{e.name} is bounded on one side only: beyond {_value(e)} the torques hardly change"
-        records.append(_warning("one_sided", e.name, text, e.value, unit=e.quantity.unit))
+        records.append(Record.warning("fit.one_sided", e.name, text, e.value, unit=e.quantity.unit))
     for e in at_bound:
         text = f"{e.name} came to rest at its bound ({_value(e)}): the model cannot follow the log any further"
-        records.append(_warning("at_bound", e.name, text, e.value, e.value, e.quantity.unit))
+        records.append(Record.warning("fit.at_bound", e.name, text, e.value, e.value, e.quantity.unit))
     return records
 
 
@@ -153,7 +142,7 @@ def _of_priors(fit_result: FitResult) -> list[Record]:
         if e.prior_share > PRIOR_SHARE:
             by_prior = "is known by its prior, too" if e.identified else "is not identified, it stands on its prior"
             text = f"{e.name} {by_prior}: the log leaves {units.percent(e.prior_share)} of the prior's variance"
-            records.append(_warning("prior", e.name, text, e.prior_share, PRIOR_SHARE))
+            records.append(Record.warning("fit.prior", e.name, text, e.prior_share, PRIOR_SHARE))
     return records
 
 
@@ -170,7 +159,7 @@ def _of_preload(fit_result: FitResult) -> list[Record]:
         f"at {lifted} of {len(fit_result.rows.log)} rows the load lifts the relieved balls off (from "
         f"{units.in_unit(most, 'N')} on): those rows tell nothing of the preload"
     )
-    return [_warning("lift_off", "axial_load", text, most, unit="N")]
+    return [Record.warning("fit.lift_off", "axial_load", text, most, unit="N")]
 
 
 def _of_rows(fit_result: FitResult) -> list[Record]:
@@ -188,18 +177,18 @@ def _of_scatter(fit_result: FitResult) -> list[Record]:
     records: list[Record] = []
     if not fit_result.solution.converged:
         text = "the fit did not come to rest: its numbers are not to be used"
-        records.append(_warning("not_converged", "estimates", text))
+        records.append(Record.warning("fit.not_converged", "estimates", text))
     typical = float(np.median(np.abs(fit_result.rows.friction)))
     scatter = float(np.median(fit_result.rows.scatter))
     if scatter > typical or fit_result.solution.noise.share > MAXIMUM_NOISE_SHARE:
         off, friction = (units.in_unit(torque, "N m", 2) for torque in (scatter, typical))
         text = f"rows miss by {off}, where friction is {friction}: look at their signs, units and conditions"
-        records.append(_warning("scatter", "torque", text, scatter, typical, "N m"))
+        records.append(Record.warning("fit.scatter", "torque", text, scatter, typical, "N m"))
     outlying = float(np.mean(fit_result.rows.outlying))
     if outlying > MANY_OUTLIERS:
         share = units.percent(outlying)
         text = f"{share} of the rows lie far from any fit: look at their signs, units and conditions"
-        records.append(_warning("outliers", "rows", text, outlying, MANY_OUTLIERS))
+        records.append(Record.warning("fit.outliers", "rows", text, outlying, MANY_OUTLIERS))
     return records
 
 
@@ -208,13 +197,13 @@ def _of_number(fit_result: FitResult) -> list[Record]:
     records: list[Record] = []
     if fit_result.has_few_rows:
         text = "too few operating points for so many numbers: no estimate has an error; measure at more, or free fewer"
-        records.append(_warning("too_few", "rows", text, float(len(fit_result.rows.log))))
+        records.append(Record.warning("fit.too_few", "rows", text, float(len(fit_result.rows.log))))
     if autocorrelation_lag(fit_result.solution.influence):
         text = "residuals that follow each other are alike: the errors are larger for it"
-        records.append(_warning("autocorrelated", "residuals", text))
+        records.append(Record.warning("fit.autocorrelated", "residuals", text))
     if not fit_result.rows.held_out.any():
         text = "too few rows to hold any out: how well the model predicts is not known"
-        records.append(_warning("no_holdout", "holdout_rms", text, float(len(fit_result.rows.log))))
+        records.append(Record.warning("fit.no_holdout", "holdout_rms", text, float(len(fit_result.rows.log))))
     return records
 
 
@@ -232,7 +221,7 @@ def _of_baselines(fit_result: FitResult) -> list[Record]:
         f"the description without physics ({best}) is {times} times nearer to the log: look at units, kind of torque, "
         "and whether this is the screw"
     )
-    return [_warning("baseline_better", "residual_rms", text, own, rms[best], "N m")]
+    return [Record.warning("fit.baseline_better", "residual_rms", text, own, rms[best], "N m")]
 
 
 def _of_oil(fit_result: FitResult) -> list[Record]:
@@ -242,12 +231,12 @@ def _of_oil(fit_result: FitResult) -> list[Record]:
     records: list[Record] = []
     if "viscosity" in fit_result.response.names:
         text = "viscosity is free: it counts for the whole log, whatever the temperatures"
-        records.append(_warning("viscosity_free", "viscosity", text))
+        records.append(Record.warning("fit.viscosity_free", "viscosity", text))
     if not fit_result.lubricant.follows_temperature:
         text = (
             "the temperatures of the log are not used: the oil has a viscosity, and no sheet or grade that changes it"
         )
-        records.append(_warning("temperature_unused", "temperature", text))
+        records.append(Record.warning("fit.temperature_unused", "temperature", text))
     return records
 
 
@@ -269,7 +258,7 @@ def _of_load_signs(fit_result: FitResult) -> list[Record]:
         "the loads of the log have no sign: they are taken as positive; friction under the opposite load differs by "
         f"{units.percent(share)} in this nut; give the loads their signs"
     )
-    return [_warning("load_sign", "axial_load", text, share, LOAD_SIGN_SHARE)]
+    return [Record.warning("fit.load_sign", "axial_load", text, share, LOAD_SIGN_SHARE)]
 
 
 def _trends(fit_result: FitResult) -> list[Record]:
@@ -284,5 +273,5 @@ def _trends(fit_result: FitResult) -> list[Record]:
                 f"friction is {'over' if off > 0 else 'under'}estimated by {units.percent(abs(off) / friction)} at the "
                 f"{_FIFTHS[worst]} fifth of the {name.replace('_', ' ')}: the model misses something that depends on it"
             )
-            records.append(_warning("trend", name, text, off, TREND_SHARE * friction, "N m"))
+            records.append(Record.warning("fit.trend", name, text, off, TREND_SHARE * friction, "N m"))
     return records

@@ -231,12 +231,12 @@ def fit_motion(
             asked = (*asked, PRELOAD)
             friction = _screw_friction(subject, asked, equation, linear, carried_mass)
             found_screw = fit_screw_model(equation, friction, linear.solution, carried_mass)
-            warnings.append(_warning("preload_freed", PRELOAD, _PRELOAD_FREED))
+            warnings.append(Record.warning("fit.preload_freed", PRELOAD, _PRELOAD_FREED))
         if found_screw is None:
-            warnings.append(_warning("no_screw_model", "screw", _NO_FRICTION))
+            warnings.append(Record.warning("fit.no_screw_model", "screw", _NO_FRICTION))
     else:
         _screw_friction(subject, asked, equation, linear, carried_mass)  # names that are wrong are faults in any case
-        warnings.append(_warning("no_screw_model", "screw", _NO_MASS))
+        warnings.append(Record.warning("fit.no_screw_model", "screw", _NO_MASS))
     errors = {LINEAR: linear.relative_error}
     if power is not None:
         errors[POWER] = power.relative_error
@@ -405,17 +405,13 @@ def _estimates(
 def _remarks(power: PowerLaw | None) -> list[Record]:
     remarks = [Record("fit.gravity_or_offset", "offset", _GRAVITY, holds=False)]
     if power is None:
-        remarks.append(_warning("no_exponent", "speed_exponent", _NO_EXPONENT))
+        remarks.append(Record.warning("fit.no_exponent", "speed_exponent", _NO_EXPONENT))
     return remarks
 
 
 def _is_off(screw: ScrewModelFit | None, linear: LinearModel) -> bool:
     """Test whether the screw's model does not fit."""
     return screw is not None and screw.relative_error > WORSE * linear.relative_error
-
-
-def _warning(name: str, subject: str, message: str) -> Record:
-    return Record.warning(f"fit.{name}", subject, message)
 
 
 def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) -> list[Record]:
@@ -430,11 +426,11 @@ def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) ->
             f"{units.percent(linear.relative_error, 1)} · the screw of the case has more friction than the whole "
             f"axis: try {remedy}"
         )
-        records.append(_warning("screw_model_off", "screw", message))
+        records.append(Record.warning("fit.screw_model_off", "screw", message))
     if screw.table_error > _TABLE_ERROR:
         error = units.percent(screw.table_error, 1)
         text = f"the table of the screw's friction is off by up to {error} of the largest friction"
-        records.append(_warning("table_error", "screw", text))
+        records.append(Record.warning("fit.table_error", "screw", text))
     return records
 
 
@@ -446,4 +442,4 @@ def _unidentified(estimates: Mapping[str, MotionEstimate]) -> list[Record]:
     text = (
         f"the log does not tell by itself: {', '.join(map(spoken, names))} · free fewer numbers, or give what is known"
     )
-    return [_warning("not_identified", ",".join(names), text)]
+    return [Record.warning("fit.not_identified", ",".join(names), text)]

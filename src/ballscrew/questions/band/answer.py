@@ -321,15 +321,11 @@ def warnings(report: BandReport) -> list[Record]:
         message = (
             f"{units.number(100 * outside)}% of the samples lie outside the model's validity ({', '.join(reasons)})"
         )
-        records.append(_share("band.not_valid_share", "valid", message, outside))
+        records.append(Record.warning("band.not_valid_share", "valid", message, outside, 0.0))
     if missing > 0:
         message = f"{units.number(100 * missing)}% of the samples are no number, and left out"
-        records.append(_share("band.missing_share", _TORQUE, message, missing))
+        records.append(Record.warning("band.missing_share", _TORQUE, message, missing, 0.0))
     return records
-
-
-def _share(name: str, subject: str, message: str, value: float) -> Record:
-    return Record.warning(name, subject, message, value=value, limit=0.0)
 
 
 def _torque_in_file(text: Any, quantity: Quantity) -> str:
