@@ -315,7 +315,7 @@ def test_fit(ballscrew, rig):
     assert found[0]["value"] != found[1]["value"]
     assert sorted(path.name for path in (rig / "fits").iterdir()) == ["X_1.toml", "Y_2.toml"]
     calibrated = case_file.load(rig / "fits" / "Y_2.toml")
-    assert calibrated.row.name == "Y/2"
+    assert calibrated.origins.row.name == "Y/2"
     assert calibrated.model.friction.boundary_friction_coefficient == pytest.approx(found[1]["value"], rel=1e-9)
 
 
