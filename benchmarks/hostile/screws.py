@@ -75,7 +75,7 @@ def changed(case: Case, change: Callable[[Any], Any]) -> Case:
         arrays = {n: getattr(given, n) for n in fields_of(given) if isinstance(getattr(given, n), np.ndarray)}
         return dataclasses.replace(given, **{name: change(values) for name, values in arrays.items()})
 
-    return Case(part(case.screw), part(case.origins.oil), change(case.axial_load), change(case.screw_speed))
+    return Case(part(case.screw), part(case.oil), change(case.axial_load), change(case.screw_speed))
 
 
 def some(case: Case, which: Any) -> Case:
