@@ -19,6 +19,8 @@ def _count() -> None:
 
     if coverage.Coverage.current() is None:  # no fork of a fork
         counter = coverage.Coverage(data_file=None, config_file=False, include=os.environ["LINES_OF"].split(","))
+        # a refusal may run none of the lines: a warning of that would stand among what the command prints
+        counter.set_option("run:disable_warnings", ["no-data-collected"])
         counter.start()
         atexit.register(_write, counter)
 
