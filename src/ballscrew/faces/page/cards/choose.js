@@ -4,7 +4,7 @@ import * as designs from "../designs.js";
 import { box, button, framed, namedButton, primaryButton } from "../controls.js";
 import { element, within } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
-import { choiceField, numberField } from "../fields.js";
+import { choiceField, labelIn, numberField } from "../fields.js";
 import { answerOfKept, drop, keptJob, runJob } from "../jobs.js";
 import { FIELDS, LISTS, OF_MASS } from "../needs.js";
 import * as schema from "../schema.js";
@@ -14,7 +14,7 @@ import { store } from "../store.js";
 import { CHECKS } from "../names.js";
 import * as units from "../units.js";
 import { asTheyCome, candidates } from "./candidates.js";
-import { leftOut, tables } from "./need_tables.js";
+import { leftOut, missingIn, tables } from "./need_tables.js";
 
 /** Hints in the fields of a need. @type {Record<string, string>} */
 const HINTS = {
@@ -37,6 +37,7 @@ const PLACE = "choose";
 export function setUp(holder) {
   const fields = element("div", { class: "grid" });
   const sources = element("div", {});
+  const wanted = element("p", { class: "warning", id: "choose-wanted", role: "status", hidden: true });
   const faults = element("div", { class: "faults" });
   const progress = element("div", { class: "card-line" });
   const result = element("div", { id: "choose-result", "aria-live": "off" });
@@ -50,6 +51,7 @@ export function setUp(holder) {
         { class: "small" },
         "Give force and feed, or a mass with acceleration, feed and stroke: the screw is then judged by the cycle there and back, at its peak load and by its mean.",
       ),
+      wanted,
       fields,
       sources,
     ),
@@ -100,8 +102,11 @@ export function setUp(holder) {
     shown = JSON.stringify(need());
   }
 
-  /** Close the fields that others stand for. */
+  /** Close the fields that others stand for, and say which are still to be given. */
   function bar() {
+    const missing = missingIn(need()).map((name) => labelIn(name));
+    wanted.hidden = !missing.length;
+    wanted.textContent = missing.length ? `Still to be given: ${missing.join(", ")}.` : "";
     const closed = leftOut(need());
     for (const field of /** @type {NodeListOf<HTMLElement>} */ (fields.querySelectorAll(".field"))) {
       /** @type {NodeListOf<HTMLInputElement | HTMLSelectElement>} */

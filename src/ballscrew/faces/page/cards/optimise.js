@@ -12,7 +12,7 @@ import * as views from "../views.js";
 import { vocabulary } from "../vocabulary.js";
 import { objective } from "./candidates.js";
 import { commandLine, faultLines } from "./log_parts.js";
-import { tables } from "./need_tables.js";
+import { leftOut, tables } from "./need_tables.js";
 import { flags, optionFields } from "./option_fields.js";
 import { question } from "./question.js";
 
@@ -129,8 +129,9 @@ export function setUp(holder) {
 /** What the need asks for, in words. */
 function summary() {
   const { texts, duty } = store.state.need;
+  const closed = leftOut(store.state.need);
   const given = Object.keys(FIELDS).flatMap((name) =>
-    texts[name] ? [`${labelOf(FIELDS[name] || `need.${name}`)}: ${texts[name]}`] : [],
+    texts[name] && !closed.includes(name) ? [`${labelOf(FIELDS[name] || `need.${name}`)}: ${texts[name]}`] : [],
   );
   return (
     [...given, ...(duty ? ["by the duty of the design on the page, in place of force and feed"] : [])].join("; ") ||
