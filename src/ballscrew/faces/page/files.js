@@ -4,7 +4,10 @@ import { byId, element, showNotice } from "./dom.js";
 import { keeping } from "./keeping.js";
 import { NOT_KEPT } from "./names.js";
 import { open as opened } from "./opening.js";
+import * as views from "./views.js";
 
+/** Names of files that are logs where one is asked for. */
+const LOG = /\.(?:csv|txt|tsv|xlsx?|ods|mat)$/i;
 /** Deleting everything is asked for twice within this time, in milliseconds. */
 const SURE_WITHIN = 6000;
 
@@ -20,9 +23,27 @@ export function setUp() {
   addEventListener("drop", (event) => {
     if (event.defaultPrevented) return;
     event.preventDefault();
-    open([...(event.dataTransfer?.files ?? [])]);
+    const all = [...(event.dataTransfer?.files ?? [])];
+    const logs = all.filter(({ name }) => LOG.test(name));
+    open(logs.length && fit(logs[0]) ? all.filter((file) => !logs.includes(file)) : all);
   });
   setUpKeeping();
+}
+
+/**
+ * Give a log to the fit, where that is seen; false where it is not. It takes the file as one that was chosen there.
+ *
+ * @param {File} log
+ */
+function fit(log) {
+  const input = document.getElementById("calibrate-log");
+  if (views.current() !== "measure" || !(input instanceof HTMLInputElement)) return false;
+  const given = new DataTransfer();
+  given.items.add(log);
+  input.files = given.files;
+  input.dispatchEvent(new Event("change"));
+  input.closest("section")?.scrollIntoView();
+  return true;
 }
 
 /** @param {File[]} files */
