@@ -6,7 +6,7 @@ import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
 import { caseOf, titleOf } from "./designs.js";
-import { byId, update } from "./dom.js";
+import { byId, NARROW, update } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { hotAndCold as hot } from "./hot_and_cold.js";
 import * as inputs from "./inputs.js";
@@ -264,7 +264,7 @@ class Answers {
     dragged.addEventListener("move", (event) => {
       if (this.#followPoint(/** @type {CustomEvent} */ (event).detail)) event.preventDefault();
     });
-    drawings.NARROW.addEventListener("change", () => {
+    NARROW.addEventListener("change", () => {
       if (this.#displayed.drawing) drawings.show(this.#displayed.drawing);
       if (this.#displayed.answer) nutPicture.show(this.#displayed.answer);
     });

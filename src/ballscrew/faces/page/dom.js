@@ -4,6 +4,9 @@
 /** @typedef {string | number | Node | null | undefined} Child */
 /** @typedef {string | number | boolean | null | undefined} Cell */
 
+/** Matches a window that is as narrow as a phone. */
+export const NARROW = matchMedia("(max-width: 46rem)");
+
 /** Elements with listeners, which stand as they were made. @type {WeakSet<Node>} */
 const listening = new WeakSet();
 

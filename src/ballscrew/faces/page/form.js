@@ -1,7 +1,7 @@
 // The form, made from the JSON Schema of the case file. It shows the texts of the state and reports what is typed.
 
 import { current, isOfFile, ownScrewOf, setAside, setTables, tablesOf } from "./designs.js";
-import { byId, element, within } from "./dom.js";
+import { byId, element, NARROW, within } from "./dom.js";
 import { inWords, labelOf } from "./messages.js";
 import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
 import * as help from "./help.js";
@@ -32,7 +32,6 @@ const ESSENTIAL = {
 };
 const OPEN = ["operation", "screw", "nut", "lubricant"];
 const OPEN_ON_PHONE = ["operation"];
-const NARROW = "(max-width: 46rem)";
 
 /**
  * Build the whole form.
@@ -45,7 +44,7 @@ export function build(source) {
   const sections = [...form.querySelectorAll("details")];
   const open = new Set(sections.filter((one) => one.open).map((one) => one.dataset.section));
   const isFirst = !form.children.length;
-  const openFirst = matchMedia(NARROW).matches ? OPEN_ON_PHONE : OPEN;
+  const openFirst = NARROW.matches ? OPEN_ON_PHONE : OPEN;
   const parts = Object.entries(SECTIONS).map(([name, title]) =>
     section(
       name,

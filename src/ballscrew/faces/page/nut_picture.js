@@ -1,8 +1,7 @@
 // The side view of a screw and its nut, to scale, with the load of each ball in front as its colour.
 
 import { COLOURS, nutOf, rangeOf } from "./ball_places.js";
-import { byId, element, update } from "./dom.js";
-import { NARROW } from "./drawing.js";
+import { byId, element, NARROW, update } from "./dom.js";
 import { colourAt } from "./palette.js";
 import { arrow, line, polygon, shape } from "./shapes.js";
 import * as units from "./units.js";

@@ -142,11 +142,11 @@ export function setUp(holder) {
   });
   showRecorded("");
 
-  /** That bearings and guides of the case count, which are not shown here. */
+  /** What counts here, beside what is shown. */
   function otherParts() {
-    return tables.bearings || tables.guides
-      ? "The bearings and guides of the case count too; their tables are changed in its file."
-      : "";
+    const ofCase = "The bearings and guides of the case count too; their tables are changed in its file.";
+    const loads = "Loads are those of mass and motion: load and speed of the operating point do not count here.";
+    return tables.bearings || tables.guides ? `${loads} ${ofCase}` : loads;
   }
 
   /** @param {Vocabulary["starts"]} starts */
