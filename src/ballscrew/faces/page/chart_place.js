@@ -5,8 +5,10 @@ import { drawFigure } from "./figure.js";
 import { vertical } from "./figure_marks.js";
 import { follow } from "./figure_pointer.js";
 import { legendOf, numbersOf, readingElement } from "./figure_words.js";
+import * as point from "./operating_point.js";
 import { forget, ofScreen, PAPER, shade } from "./palette.js";
 import { CanvasPen, corners, SvgPen, widthOf } from "./pen.js";
+import { save } from "./saving.js";
 
 /** @typedef {import("./figure.js").Figure} Figure */
 /** @typedef {import("./figure.js").Frame} Frame */
@@ -21,18 +23,7 @@ import { CanvasPen, corners, SvgPen, widthOf } from "./pen.js";
  * @property {string} caption
  * @property {Figure} figure
  * @property {() => import("./figure_words.js").Numbers} [numbers] where they are not those of the figure
- * @property {Drag} [drag] what moves its operating point, where that can be dragged
- * @property {(name: string, content: Blob) => void} save a file of the chart, by what its name ends with
- */
-/**
- * What moves an operating point: where it is drawn for a place of the pointer, in the values of the axes; ``moved`` is true
- * where somebody draws it there, else it alone is drawn.
- *
- * @typedef {object} Drag
- * @property {(x: number, y: number) => [number, number]} place
- * @property {(at: [number, number]) => boolean} moved
- * @property {(at: [number, number]) => void} dropped
- * @property {() => void} left where it was
+ * @property {point.Handle} [drag] what moves its operating point, where that can be dragged
  */
 
 /** Size of a chart on paper, in a file, and dots of a pixel on paper. */
@@ -214,7 +205,7 @@ class Place {
   }
 
   #saveSvg() {
-    const { name, description, figure, save } = /** @type {Chart} */ (this.#chart);
+    const { name, description, figure } = /** @type {Chart} */ (this.#chart);
     const height = Math.max(
       IN_FILE.height,
       Number.parseFloat(this.holder.style.getPropertyValue("--plot-height")) || 0,
@@ -248,7 +239,7 @@ class Place {
         label,
       );
     const saveCsv = () =>
-      this.#chart?.save(`-${this.#chart.name}.csv`, new Blob([csv(...this.#numbers())], { type: "text/csv" }));
+      this.#chart && save(`-${this.#chart.name}.csv`, new Blob([csv(...this.#numbers())], { type: "text/csv" }));
     const showWhole = () => {
       this.#enlarge({});
       summary.focus(); // the button is gone
@@ -305,14 +296,14 @@ class Place {
         const handle = this.#chart?.drag;
         if (!handle) return;
         this.#dragged = handle.place(...at);
-        if (!handle.moved(this.#dragged)) this.paint();
+        if (!point.isFollowed(handle, this.#dragged)) this.paint(); // nobody else draws it there
       },
       drop: (isDropped) => {
         const [handle, at] = [this.#chart?.drag, this.#dragged];
         this.#dragged = undefined;
-        if (isDropped && handle && at) handle.dropped(at);
+        if (isDropped && handle && at) point.take(handle, at);
         else {
-          handle?.left();
+          if (handle) point.letGo();
           this.paint();
         }
       },

@@ -1,11 +1,10 @@
 // Charts of an operating point over its speed and its load: the torque and its parts, efficiency, film, pressure, Stribeck.
 
 import * as parts from "./chart_parts.js";
-import { hide } from "./chart_place.js";
+import { draw, hide } from "./chart_place.js";
 import { element } from "./dom.js";
 import { linesByValidity, OUTSIDE, outside, pointAt } from "./figure_parts.js";
 import { yesOrNo } from "./figure_words.js";
-import { draw } from "./plot.js";
 import { data, greatestPressure, leastFilm } from "./results.js";
 import { extent } from "./scale.js";
 import { FLOODED, fullBath } from "./starvation.js";

@@ -1,12 +1,11 @@
 // The friction torque over the speed, cold and hot: curves at the temperatures of the table, drawn once they are seen.
 
 import * as parts from "./chart_parts.js";
-import { hide, showFailure } from "./chart_place.js";
+import { draw, hide, showFailure } from "./chart_place.js";
 import { byId } from "./dom.js";
 import { linesByValidity, pointAt } from "./figure_parts.js";
 import { yesOrNo } from "./figure_words.js";
 import { localEngine, pointsOf } from "./local_engine.js";
-import { draw } from "./plot.js";
 import { Latest, linesOf, sendJson } from "./server.js";
 import * as units from "./units.js";
 

@@ -3,9 +3,8 @@
 import { COLOURS, nutOf, rangeOf } from "./ball_places.js";
 import { POSITION } from "./cards/quantities.js";
 import * as parts from "./chart_parts.js";
-import { hide } from "./chart_place.js";
+import { draw, hide } from "./chart_place.js";
 import { byId, element, scrolling, table, update } from "./dom.js";
-import { draw } from "./plot.js";
 import * as units from "./units.js";
 
 /** What is said of the loads. @type {Record<string, string>} */
@@ -47,7 +46,7 @@ function angleOf({ angle }) {
 
 /**
  * @param {Nut} nut
- * @returns {import("./plot.js").Chart}
+ * @returns {import("./chart_place.js").Chart}
  */
 function chart(nut) {
   const x = "angle about the screw (°)";

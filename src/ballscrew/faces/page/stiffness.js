@@ -1,9 +1,8 @@
 // The nut: how far it gives way, what is left of its preload, and the load of each ball.
 
 import * as parts from "./chart_parts.js";
-import { hide } from "./chart_place.js";
+import { draw, hide } from "./chart_place.js";
 import { byId, element, table, update } from "./dom.js";
-import { draw } from "./plot.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
 

@@ -3,7 +3,7 @@
 import * as designs from "../designs.js";
 import { box, button, menu, textField } from "../controls.js";
 import { element, redraw, scrolling } from "../dom.js";
-import { draw } from "../plot.js";
+import { draw } from "../chart_place.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
 import { CHECKS } from "../names.js";

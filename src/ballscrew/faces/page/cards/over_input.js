@@ -1,7 +1,7 @@
 // A result over any input: one curve for each design, all at one load and speed or each at its own.
 
 import * as parts from "../chart_parts.js";
-import { showFailure } from "../chart_place.js";
+import { draw, showFailure } from "../chart_place.js";
 import * as designs from "../designs.js";
 import { menu, textField } from "../controls.js";
 import { element } from "../dom.js";
@@ -9,7 +9,6 @@ import { linesByValidity, pointAt } from "../figure_parts.js";
 import { yesOrNo } from "../figure_words.js";
 import { inWords } from "../messages.js";
 import { labelIn } from "../fields.js";
-import { draw } from "../plot.js";
 import { numbersOf } from "../results.js";
 import { definition, fieldOf, SECTIONS } from "../schema.js";
 import { linesOf, Problem } from "../server.js";
