@@ -4,7 +4,7 @@ import * as bath from "./bath.js";
 import { isVisible, move, showFailure, showWords } from "./chart_place.js";
 import * as charts from "./charts.js";
 import * as checks from "./checks.js";
-import { showDesigns, showModels } from "./compare.js";
+import { showDesigns } from "./compare.js";
 import { caseOf, titleOf } from "./designs.js";
 import { byId, NARROW, update } from "./dom.js";
 import * as drawings from "./drawing.js";
@@ -21,6 +21,7 @@ import { powerFlow } from "./power_flow.js";
 import * as quadrants from "./quadrants.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
+import { sheetPlace } from "./sheet.js";
 import { alone, keep, known, Latest, linesOf, Problem, sendLines } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
@@ -257,6 +258,8 @@ class Answers {
   /** Its next curves, where they do not fit into a frame. @type {ReturnType<typeof setTimeout> | undefined} */
   #curves;
   #never = new AbortController();
+  /** All models and laws. */
+  #models = sheetPlace("models");
   /** What draws the parts of the answer that nobody sees yet. @type {(() => unknown)[]} */
   #undrawn = [];
 
@@ -460,7 +463,7 @@ class Answers {
     if (hotAndCold) hot.redisplay();
     if (drawing) drawings.show(drawing);
     if (designs) showDesigns(designs, found.starts, vocabulary.mechanisms);
-    if (models) showModels(models);
+    if (models) this.#models.show(/** @type {any} */ (models.sheet));
   }
 
   /**
@@ -509,7 +512,8 @@ class Answers {
         return;
       }
       this.#displayed.models = found;
-      showModels(found);
+      byId("models").replaceChildren(this.#models.head, this.#models.place);
+      this.#models.show(/** @type {any} */ (found.sheet));
     } catch (error) {
       byId("models").textContent = linesOf(error).join("; ");
     }
