@@ -2,7 +2,7 @@
 
 import { current, isOfFile, ownScrewOf, setAside, setTables, tablesOf } from "./designs.js";
 import { byId, element, NARROW, within } from "./dom.js";
-import { inWords, labelOf } from "./messages.js";
+import { inWords, labelOf, markFaults } from "./messages.js";
 import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
 import * as help from "./help.js";
 import { slidersOf } from "./operating_point.js";
@@ -278,27 +278,13 @@ export function showValues(values) {
  * @returns {import("./results.js").Refusal} what stands above the answer: links to the fields, and faults of no field
  */
 export function showFaults(faults) {
-  for (const field of byId("form").querySelectorAll(".field.wrong")) {
-    field.classList.remove("wrong");
-    within(field, ".fault").textContent = "";
-    field.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
-  }
-  /** @type {Map<string, HTMLElement>} */
-  const wrong = new Map();
-  /** @type {(string | Node)[]} */
-  const others = [];
-  for (const fault of faults) {
-    const path = pathOf(fault.where);
-    const field = fieldAt(path);
-    if (field && !wrong.has(path)) {
-      wrong.set(path, field);
-      markWrong(field, inWords(fault));
-    } else if (!field) others.push(ofNoField(fault));
-  }
-  const [first] = [...byId("form").querySelectorAll(".field.wrong")];
+  const others = markFaults(byId("form"), faults, ({ where }) => fieldAt(pathOf(where))).map(ofNoField);
+  const wrong = [.../** @type {NodeListOf<HTMLElement>} */ (byId("form").querySelectorAll(".field.wrong"))];
+  wrong.forEach(open);
+  const [first] = wrong;
   if (first && !first.contains(document.activeElement)) first.scrollIntoView({ block: "nearest" });
-  const links = [...wrong].map(([path, field]) =>
-    element("button", { type: "button", onclick: () => jumpTo(field) }, labelOf(path)),
+  const links = wrong.map((field) =>
+    element("button", { type: "button", onclick: () => jumpTo(field) }, labelOf(field.dataset.path ?? "")),
   );
   const intro = `${links.length === 1 ? "Not computed. Correct this field:" : "Not computed. Correct these fields:"} `;
   const line = links.length ? [element("span", {}, intro, ...links)] : [];
@@ -341,17 +327,6 @@ function open(field) {
     holder.open = true;
     holder = holder.parentElement?.closest("details") ?? null;
   }
-}
-
-/**
- * @param {HTMLElement} field
- * @param {string} words
- */
-function markWrong(field, words) {
-  field.classList.add("wrong");
-  within(field, ".fault").textContent = words;
-  within(field, "input, select").setAttribute("aria-invalid", "true");
-  open(field);
 }
 
 /** @param {HTMLElement} field */

@@ -1,8 +1,8 @@
 // Fields of a card: sections of the case that the form does not show, with their faults beside them.
 
 import { framed } from "../controls.js";
-import { element, within } from "../dom.js";
-import { inWords } from "../messages.js";
+import { element } from "../dom.js";
+import { markFaults } from "../messages.js";
 import { choiceField, numberField, showEffective } from "../fields.js";
 import * as schema from "../schema.js";
 import { valueAt } from "../state.js";
@@ -57,19 +57,7 @@ export function showValues(holder, inputs) {
  * @returns {FaultLine[]} those of no field here
  */
 export function placeFaults(holder, faults) {
-  for (const wrong of holder.querySelectorAll(".wrong")) {
-    wrong.classList.remove("wrong");
-    within(wrong, ".fault").textContent = "";
-    wrong.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
-  }
   /** @type {NodeListOf<HTMLElement>} */
   const places = holder.querySelectorAll("[data-path]");
-  return faults.filter((fault) => {
-    const place = [...places].find((one) => one.dataset.path === fault.path);
-    if (!place) return true;
-    place.classList.add("wrong");
-    within(place, ".fault").textContent = inWords(fault);
-    place.querySelector("input, select")?.setAttribute("aria-invalid", "true");
-    return false;
-  });
+  return markFaults(holder, faults, ({ path }) => [...places].find((one) => one.dataset.path === path));
 }

@@ -3,7 +3,7 @@
 import * as designs from "../designs.js";
 import { box, button, framed, namedButton, primaryButton } from "../controls.js";
 import { element, within } from "../dom.js";
-import { inWords, labelOf } from "../messages.js";
+import { inWords, labelOf, markFaults } from "../messages.js";
 import { choiceField, labelIn, numberField } from "../fields.js";
 import { answerOfKept, drop, keptJob, runJob } from "../jobs.js";
 import { FIELDS, LISTS, OF_MASS } from "../needs.js";
@@ -37,7 +37,7 @@ const PLACE = "choose";
 export function setUp(holder) {
   const fields = element("div", { class: "grid" });
   const sources = element("div", {});
-  const wanted = element("p", { class: "warning", id: "choose-wanted", role: "status", hidden: true });
+  const wanted = element("p", { class: "warning", id: "choose-wanted", "aria-live": "polite", hidden: true });
   const faults = element("div", { class: "faults" });
   const progress = element("div", { class: "card-line" });
   const result = element("div", { id: "choose-result", "aria-live": "off" });
@@ -286,20 +286,9 @@ export function setUp(holder) {
    * @param {FaultLine[]} lines
    */
   function place(lines) {
-    for (const wrong of fields.querySelectorAll(".field")) {
-      wrong.classList.remove("wrong");
-      within(wrong, ".fault").textContent = "";
-      wrong.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
-    }
-    const others = lines.filter((fault) => {
-      const [name] =
-        Object.entries(FIELDS).find(([short, path]) => [path, `need.${short}`, short].includes(fault.where)) ?? [];
-      const field = name && fields.querySelector(`[data-path="need.${name}"]`);
-      if (!field) return true;
-      field.classList.add("wrong");
-      within(field, ".fault").textContent = inWords(fault);
-      within(field, "input, select").setAttribute("aria-invalid", "true");
-      return false;
+    const others = markFaults(fields, lines, ({ where }) => {
+      const known = Object.entries(FIELDS).find(([name, path]) => [path, `need.${name}`, name].includes(where));
+      return known && fields.querySelector(`[data-path="need.${known[0]}"]`);
     });
     faults.replaceChildren(...others.map((fault) => element("p", {}, `${labelOf(fault.where)}: ${inWords(fault)}`)));
     fields.querySelector(".wrong")?.scrollIntoView({ block: "nearest" });
