@@ -51,7 +51,7 @@ const PAINT_TIMEOUT = 500;
 /**
  * Inputs that are moved, whether axes stay as they are, when it began, and the case where that has them already.
  *
- * @typedef {{ values: import("./moving.js").Values, isHeld: boolean, start: number, body?: Body }} Moved
+ * @typedef {{ values: import("./engine.js").Values, isHeld: boolean, start: number, body?: Body }} Moved
  */
 /**
  * Everything on the page: the case, its answer and band, the sweeps of its charts, the other designs and models.

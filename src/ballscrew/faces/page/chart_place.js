@@ -10,9 +10,8 @@ import { forget, ofScreen, PAPER, shade } from "./palette.js";
 import { CanvasPen, corners, SvgPen, widthOf } from "./pen.js";
 import { save } from "./saving.js";
 
-/** @typedef {import("./figure.js").Figure} Figure */
-/** @typedef {import("./figure.js").Frame} Frame */
-/** @typedef {import("./palette.js").Palette} Palette */
+/** @import { Figure, Frame } from "./figure.js" */
+/** @import { Palette } from "./palette.js" */
 /** @typedef {{ width: number, height: number }} Size */
 /**
  * A chart: a name for its files, a description, a caption of its numbers, and its figure.

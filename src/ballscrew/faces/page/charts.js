@@ -10,8 +10,7 @@ import { extent } from "./scale.js";
 import { FLOODED, fullBath } from "./starvation.js";
 import * as units from "./units.js";
 
-/** @typedef {import("./figure.js").Mark} Mark */
-/** @typedef {import("./figure.js").Zone} Zone */
+/** @import { Mark, Zone } from "./figure.js" */
 
 // light enough everywhere for dark lines, also for people who do not see red or green
 const SHADES = ["#8296b5", "#c3b98c", "#ffe945"];

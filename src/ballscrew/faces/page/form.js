@@ -10,10 +10,9 @@ import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./sche
 import { valueAt } from "./state.js";
 import { vocabulary } from "./vocabulary.js";
 
-/** @typedef {import("./schema.js").SchemaNode} SchemaNode */
-/** @typedef {import("./state.js").FrozenState} State */
-/** @typedef {import("./fields.js").Change} Change */
-/** @typedef {import("./fields.js").Source} Source */
+/** @import { Source } from "./fields.js" */
+/** @import { SchemaNode } from "./schema.js" */
+/** @import { FrozenState as State } from "./state.js" */
 
 /** The kind of a fault of what no case has. */
 const UNKNOWN = "unknown";

@@ -7,8 +7,7 @@ import { Engine } from "./engine.js";
 import { sendJson } from "./server.js";
 
 /** @typedef {{ case: Record<string, unknown> }} Body */
-/** @typedef {import("./engine.js").Values} Values */
-/** @typedef {import("./engine.js").Found} Found */
+/** @import { Found, Values } from "./engine.js" */
 /** @typedef {{ axial_load: number, screw_speed: number }} Point */
 /** Values of the axes of curves, by the curve and the axis. @typedef {Record<string, Record<string, number[]>>} Axes */
 /**

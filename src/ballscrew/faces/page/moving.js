@@ -4,9 +4,8 @@
 import { localEngine, pointOf, pointsOf } from "./local_engine.js";
 import { FLOODED, FULL_BATH } from "./starvation.js";
 
-/** @typedef {import("./local_engine.js").Values} Values */
-/** @typedef {import("./local_engine.js").Found} Found */
-/** @typedef {import("./local_engine.js").Point} Point */
+/** @import { Found, Values } from "./engine.js" */
+/** @import { Point } from "./local_engine.js" */
 /** Sweeps by the name of their curve. @typedef {Record<string, Sweep>} Sweeps */
 
 /** Results that are computed here, where the answer before has them; the others stay as they were. */

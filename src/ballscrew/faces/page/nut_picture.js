@@ -6,8 +6,7 @@ import { colourAt } from "./palette.js";
 import { arrow, line, polygon, shape } from "./shapes.js";
 import * as units from "./units.js";
 
-/** @typedef {import("./ball_places.js").Nut} Nut */
-/** @typedef {import("./ball_places.js").Ball} Ball */
+/** @import { Ball, Nut } from "./ball_places.js" */
 
 /** Width of the drawing, and its greatest height: of a screen, and of a phone. */
 const SIZES = { wide: { width: 860, height: 330 }, narrow: { width: 340, height: 260 } };

@@ -16,9 +16,8 @@ const NUMBERS = {
   ratio: "greatest / least",
 };
 
-/** @typedef {import("./ball_places.js").Nut} Nut */
-/** @typedef {import("./ball_places.js").Ball} Ball */
-/** @typedef {import("./figure.js").Curve} Curve */
+/** @import { Ball, Nut } from "./ball_places.js" */
+/** @import { Curve } from "./figure.js" */
 
 const CHART = "nut-unrolled";
 const TURN = 2 * Math.PI;

@@ -5,10 +5,9 @@ import * as places from "./chart_place.js";
 import { extent } from "./scale.js";
 import { converted, digits, symbolOf, titled } from "./units.js";
 
-/** @typedef {import("./units.js").Quantity} Quantity */
-/** @typedef {import("./sheet.js").Block} Block */
-/** @typedef {import("./figure.js").Figure} Figure */
-/** @typedef {import("./figure.js").Mark} Drawn */
+/** @import { Mark as Drawn } from "./figure.js" */
+/** @import { Block } from "./sheet.js" */
+/** @import { Quantity } from "./units.js" */
 /** @typedef {(number | null)[]} Values */
 /** An axis of a chart. @typedef {{ name: string, quantity: Quantity, log: boolean, least: number | null }} Axis */
 /** A curve. @typedef {{ name: string, x: Values, y: Values, colour: string, style: string, second: boolean, labels: string[] }} Curve */

@@ -7,9 +7,8 @@ import { choiceField, numberField, showEffective } from "../fields.js";
 import * as schema from "../schema.js";
 import { valueAt } from "../state.js";
 
-/** @typedef {import("../fields.js").Change} Change */
-/** @typedef {import("../state.js").FrozenState} State */
-/** @typedef {import("../state.js").Tables} Tables */
+/** @import { Change } from "../fields.js" */
+/** @import { FrozenState as State, Tables } from "../state.js" */
 
 /**
  * The fields of a section by their names, in a fieldset.
