@@ -1,9 +1,10 @@
 // The form, made from the JSON Schema of the case file. It shows the texts of the state and reports what is typed.
 
 import { current, isOfFile, ownScrewOf, setAside, setTables, tablesOf } from "./designs.js";
+import { box, button } from "./controls.js";
 import { byId, element, NARROW, within } from "./dom.js";
 import { inWords, labelOf, markFaults } from "./messages.js";
-import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
+import { choiceField, fieldFor, labelIn, numberField, showEffective } from "./fields.js";
 import * as help from "./help.js";
 import { slidersOf } from "./operating_point.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
@@ -106,9 +107,8 @@ function section(name, title, attributes, ...children) {
 
 /** The box that gives the design elastic bodies of the usual sizes, or takes its bodies out. */
 function elasticBox() {
-  const box = element("input", { type: "checkbox", id: "elastic" });
-  box.addEventListener("change", () => setTables({ bodies: box.checked ? {} : null }));
-  return element("p", { class: "small" }, element("label", {}, box, " ", "Screw and nut are elastic"));
+  const turn = (/** @type {boolean} */ isElastic) => setTables({ bodies: isElastic ? {} : null });
+  return element("p", { class: "small" }, box("Screw and nut are elastic", false, turn, { id: "elastic" }));
 }
 
 function showElastic() {
@@ -165,23 +165,10 @@ function startField({ onChange }) {
       element("optgroup", { label }, ...members.map((row) => option(row.name, rowLabel(row)))),
     ),
   );
-  const reset = element(
-    "button",
-    {
-      type: "button",
-      id: "reset",
-      onclick: () => onChange({ reset: true }),
-      title: "Undo all changes of this design",
-    },
-    "Reset",
-  );
-  return element(
-    "div",
-    { class: "field start given" },
-    element("label", { for: "start" }, "Start from"),
-    select,
-    reset,
-  );
+  const title = "Undo all changes of this design";
+  const reset = button("Reset", () => onChange({ reset: true }), { id: "reset", title });
+  const label = element("label", { for: "start" }, "Start from");
+  return element("div", { class: "field start given" }, label, select, reset);
 }
 
 /**
@@ -224,8 +211,7 @@ function fields(path, unresolved, source) {
     return [section(path, labelIn(path), { class: "inner" }, ...children)];
   }
   if (isLaw(node)) return lawFields(path, node, source);
-  if (node.enum || node.type === "boolean") return [choiceField(path, node, source.given(path), source.onChange)];
-  const field = numberField(path, node, source);
+  const field = fieldFor(path, node, source);
   return [field, ...slidersOf(path, field, labelIn(path), node)];
 }
 
@@ -239,7 +225,7 @@ function fields(path, unresolved, source) {
 function lawFields(path, node, source) {
   const options = node.anyOf ?? [];
   const names = options.find((one) => one.enum)?.enum ?? [];
-  const present = source.lawOf(path);
+  const present = source.lawOf?.(path);
   const value = source.given(path);
   const named = typeof value === "object" && value !== null ? value.law : value;
   const chosen = named ?? present?.law;
@@ -282,9 +268,7 @@ export function showFaults(faults) {
   wrong.forEach(open);
   const [first] = wrong;
   if (first && !first.contains(document.activeElement)) first.scrollIntoView({ block: "nearest" });
-  const links = wrong.map((field) =>
-    element("button", { type: "button", onclick: () => jumpTo(field) }, labelOf(field.dataset.path ?? "")),
-  );
+  const links = wrong.map((field) => button(labelOf(field.dataset.path ?? ""), () => jumpTo(field)));
   const intro = `${links.length === 1 ? "Not computed. Correct this field:" : "Not computed. Correct these fields:"} `;
   const line = links.length ? [element("span", {}, intro, ...links)] : [];
   const said = faults.map((fault) => `${labelOf(fault.where)}: ${inWords(fault)}`).join(" ");
@@ -300,9 +284,8 @@ function ofNoField(fault) {
   const line = `${labelOf(fault.where)}: ${inWords(fault)}`;
   if (fault.id !== UNKNOWN || !isOfFile(fault.where)) return line;
   const label = `Keep ${labelOf(fault.where)} aside: it is not computed with`;
-  const action = () => setAside(fault.where);
-  const button = element("button", { type: "button", "aria-label": label, onclick: action }, "Keep it aside");
-  return element("span", {}, `${line} `, button);
+  const keep = button("Keep it aside", () => setAside(fault.where), { "aria-label": label });
+  return element("span", {}, `${line} `, keep);
 }
 
 /**

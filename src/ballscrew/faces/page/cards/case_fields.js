@@ -3,7 +3,7 @@
 import { framed } from "../controls.js";
 import { element } from "../dom.js";
 import { markFaults } from "../messages.js";
-import { choiceField, numberField, showEffective } from "../fields.js";
+import { fieldFor, showEffective } from "../fields.js";
 import * as schema from "../schema.js";
 import { valueAt } from "../state.js";
 
@@ -21,12 +21,8 @@ import { valueAt } from "../state.js";
 export function fieldset(section, title, names, { state, tables, onChange }) {
   /** @param {string} path */
   const given = (path) => valueAt(tables, path);
-  const fields = names.map((name) => {
-    const path = `${section}.${name}`;
-    const node = schema.fieldOf(path) ?? {};
-    if (node.enum || node.type === "boolean") return choiceField(path, node, given(path), onChange);
-    return numberField(path, node, { state, given, lawOf: () => undefined, onChange });
-  });
+  const paths = names.map((name) => `${section}.${name}`);
+  const fields = paths.map((path) => fieldFor(path, schema.fieldOf(path) ?? {}, { state, given, onChange }));
   return framed(title, element("div", { class: "grid" }, ...fields));
 }
 

@@ -4,7 +4,7 @@ import * as designs from "../designs.js";
 import { box, button, framed, namedButton, primaryButton } from "../controls.js";
 import { element, within } from "../dom.js";
 import { inWords, labelOf, markFaults } from "../messages.js";
-import { choiceField, labelIn, numberField } from "../fields.js";
+import { fieldFor, labelIn } from "../fields.js";
 import { drop, keptJob } from "../jobs.js";
 import { FIELDS, LISTS, OF_MASS } from "../needs.js";
 import * as schema from "../schema.js";
@@ -105,9 +105,7 @@ export function setUp(holder) {
     const given = (path) => texts[path.slice("need.".length)];
     const made = Object.entries(FIELDS).map(([name, path]) => {
       const node = (path ? schema.fieldOf(path) : known[name]) ?? {};
-      const place = `need.${name}`;
-      if (node.enum) return choiceField(place, node, given(place), onChange);
-      return numberField(place, LISTS.includes(name) ? {} : node, { state, given, lawOf: () => undefined, onChange });
+      return fieldFor(`need.${name}`, LISTS.includes(name) ? {} : node, { state, given, onChange });
     });
     for (const field of made) {
       const hint = HINTS[nameOf(field)] ?? "";

@@ -1,6 +1,7 @@
 // The card of a condition: the tests of a nut over its life, from a table or from a log each, the preload that is left in
 // each, the trend, and the alarm.
 
+import { button } from "../controls.js";
 import * as designs from "../designs.js";
 import { element } from "../dom.js";
 import { buttonCard } from "./button_card.js";
@@ -72,7 +73,7 @@ export function setUp(holder) {
       ...tests.map(({ name }, place) => {
         /** @param {string} words @param {() => void} onclick @param {boolean} disabled */
         const act = (words, onclick, disabled = false) =>
-          element("button", { type: "button", disabled, "aria-label": `${words}: ${name}`, onclick }, words);
+          button(words, onclick, { disabled, "aria-label": `${words}: ${name}` });
         const leave = () => {
           tests.splice(place, 1);
           showTests();
