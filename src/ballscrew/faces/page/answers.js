@@ -23,7 +23,7 @@ import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
 import { sheetPlace } from "./sheet.js";
 import { alone, keep, known, Latest, linesOf, Problem, sendLines } from "./server.js";
-import { LETTERS } from "./state.js";
+import { isSame, LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import { store } from "./store.js";
 import * as temperatures from "./temperatures.js";
@@ -114,14 +114,6 @@ async function others({ body, beside, signal }, error) {
 function atOnePoint(bodies, own) {
   const { operation } = bodies[0].case;
   return own || !operation ? bodies : bodies.map((one) => ({ case: { ...one.case, operation } }));
-}
-
-/**
- * @param {Body} one
- * @param {Body} other
- */
-function isSame(one, other) {
-  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 /** Why a design has no answer, in words. @param {unknown} error */

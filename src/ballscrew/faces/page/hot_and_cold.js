@@ -1,5 +1,6 @@
 // The friction torque over the speed, cold and hot: curves at the temperatures of the table, drawn once they are seen.
 
+import { plain } from "./case_values.js";
 import * as parts from "./chart_parts.js";
 import { draw, hide, showFailure } from "./chart_place.js";
 import { byId } from "./dom.js";
@@ -41,7 +42,7 @@ function computedHere({ body, answer, temperatures, speeds }) {
     if (!one) return undefined;
     const found = localEngine.at(one, points);
     curves.push({
-      torque: Array.from(found.screw_torque, (value) => (Number.isFinite(value) ? value : null)),
+      torque: Array.from(found.screw_torque, plain),
       valid: Array.from(found.valid, Boolean),
     });
   }

@@ -212,7 +212,8 @@ export function pointOf({ axial_load: load, screw_speed: speed }) {
 /**
  * The points of a grid of axes, the last one the fastest.
  *
- * @param {Point} point what no axis varies
+ * @template {Record<string, number>} Of
+ * @param {Of} point what no axis varies
  * @param {Record<string, number[]>} axes
  */
 export function pointsOf(point, axes) {

@@ -1,6 +1,7 @@
 // What is shown while something moves: numbers and curves of the module in the browser, in the form of the answers that
 // the server sends when it rests.
 
+import { plain } from "./case_values.js";
 import { localEngine, pointOf, pointsOf } from "./local_engine.js";
 import { FLOODED, FULL_BATH } from "./starvation.js";
 
@@ -23,11 +24,6 @@ const RESULTS = [
   "minimum_film_parameter",
   "maximum_pressure",
 ];
-
-/** A number as an answer has it. @param {number} value */
-function plain(value) {
-  return Number.isFinite(value) ? value : null;
-}
 
 /**
  * An answer with the numbers of other inputs. Its sentences and checks are those of before.

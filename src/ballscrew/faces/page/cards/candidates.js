@@ -6,7 +6,7 @@ import { element, redraw, scrolling } from "../dom.js";
 import { draw } from "../chart_place.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { CHECKS } from "../names.js";
+import { nameOfCheck } from "../names.js";
 import * as units from "../units.js";
 
 /** Objectives in words. @type {Record<string, string>} */
@@ -328,11 +328,6 @@ function tableOf(shown, known, order, sortBy, say) {
   );
 }
 
-/** @param {{ name: string }} check */
-function nameOf({ name }) {
-  return CHECKS[name] ?? name.replaceAll("_", " ");
-}
-
 /** @param {number | null | undefined} share */
 function multiple(share) {
   return share === null || share === undefined ? "" : ` ${units.digits(share, DIGITS_OF_SHARE)} times the limit`;
@@ -345,7 +340,7 @@ function multiple(share) {
  */
 function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_off_load: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
-  const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
+  const failing = fails.map((check) => `${nameOfCheck(check)}${multiple(check.utilisation)}`).join(", ");
   const words = failing
     ? complete
       ? `Fails: ${failing}.`
@@ -377,7 +372,7 @@ function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_
       const shown = (number) => units.formattedIn(number, SHOWN_IN[unit] ?? unit, unit);
       const share = typeof utilisation === "number" ? ` (${units.digits(100 * utilisation, DIGITS_OF_SHARE)} %)` : "";
       const numbers = check.holds === null ? "not judged" : `${shown(value)} / ${shown(limit)}${share}`;
-      return element("li", {}, `${nameOf({ name })}: ${numbers}`);
+      return element("li", {}, `${nameOfCheck({ name })}: ${numbers}`);
     });
     details.append(element("ul", {}, ...lines));
   });

@@ -11,7 +11,7 @@ import * as schema from "../schema.js";
 import { get, sendJson } from "../server.js";
 import { valueAt } from "../state.js";
 import { store } from "../store.js";
-import { CHECKS } from "../names.js";
+import { nameOfCheck } from "../names.js";
 import * as units from "../units.js";
 import { asTheyCome, candidates } from "./candidates.js";
 import { leftOut, missingIn, tables } from "./need_tables.js";
@@ -205,7 +205,7 @@ export function setUp(holder) {
     cost = `Candidates: ${plan.candidates}, ${units.digits(Math.max(1, plan.seconds), 2)} s of a processor at most.`;
     if (!inputs || inputs === agreed) return true;
     const names = [...new Set(plan.unasked.flatMap(({ checks }) => checks))];
-    const checks = names.map((name) => CHECKS[name] ?? name.replaceAll("_", " ")).join(", ");
+    const checks = names.map((name) => nameOfCheck({ name })).join(", ");
     const anyway = namedButton("choose-anyway", "Start without them", () => {
       agreed = inputs;
       ask();

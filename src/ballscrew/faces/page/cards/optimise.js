@@ -6,7 +6,7 @@ import * as designs from "../designs.js";
 import { element } from "../dom.js";
 import { labelOf } from "../messages.js";
 import { FIELDS } from "../needs.js";
-import { LETTERS } from "../state.js";
+import { isSame, LETTERS } from "../state.js";
 import { store } from "../store.js";
 import * as views from "../views.js";
 import { buttonCard } from "./button_card.js";
@@ -50,8 +50,7 @@ export function setUp(holder) {
     body: async () => ({ need: await tables(store.state.need), objectives: objectives() }),
     line: () => {
       const names = objectives();
-      const isUsual = JSON.stringify(names) === JSON.stringify(usual);
-      return names.length ? ["need.toml", ...(isUsual ? [] : ["--objectives", names.join(",")])] : [];
+      return names.length ? ["need.toml", ...(isSame(names, usual) ? [] : ["--objectives", names.join(",")])] : [];
     },
     beside: (table, row) => (table === FRONT ? takes(row) : undefined),
     show: (found) => {
