@@ -63,18 +63,17 @@ export function within(holder, selector) {
  * A table with a caption, headings above and, where wanted, beside.
  *
  * @param {string} caption
- * @param {string[]} headings
+ * @param {Child[]} headings
  * @param {Child[][]} rows
- * @param {{ beside?: boolean }} options
  */
-export function table(caption, headings, rows, { beside = true } = {}) {
+export function table(caption, headings, rows) {
   const head = headings.map((text) => (text ? element("th", { scope: "col" }, text) : element("td")));
   const body = rows.map((cells) =>
     element(
       "tr",
       {},
       ...cells.map((cell, place) =>
-        place === 0 && beside && cell !== "" ? element("th", { scope: "row" }, cell) : element("td", {}, cell),
+        place === 0 && cell !== "" ? element("th", { scope: "row" }, cell) : element("td", {}, cell),
       ),
     ),
   );
@@ -101,7 +100,7 @@ export function scrolling(label, content) {
  * A table in a frame that scrolls on its own, which is labelled by its caption.
  *
  * @param {string} caption
- * @param {string[]} headings
+ * @param {Child[]} headings
  * @param {Child[][]} rows
  */
 export function scrollingTable(caption, headings, rows) {

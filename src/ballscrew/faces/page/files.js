@@ -1,7 +1,8 @@
 // Files at the door of the page: opened or dropped, and the words on what stays in this browser.
 
+import { namedButton } from "./controls.js";
 import { byId, element, showNotice } from "./dom.js";
-import { keeping } from "./keeping.js";
+import { keeping, WHEN } from "./keeping.js";
 import { NOT_KEPT } from "./names.js";
 import { open as opened } from "./opening.js";
 import * as views from "./views.js";
@@ -86,8 +87,6 @@ function setUpKeeping() {
  * @param {import("./keeping.js").Work} work
  */
 export function sayRestored({ saved }) {
-  const when = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" }).format(saved);
-  const afresh = element("button", { type: "button", id: "afresh" }, "Start afresh");
-  afresh.addEventListener("click", () => keeping.show("#A=paper"));
-  showNotice(`Your work of ${when} is shown, as this browser kept it. `, afresh);
+  const afresh = namedButton("afresh", "Start afresh", () => keeping.show("#A=paper"));
+  showNotice(`Your work of ${WHEN.format(saved)} is shown, as this browser kept it. `, afresh);
 }

@@ -3,7 +3,7 @@
 import * as designs from "../designs.js";
 import { button, textField } from "../controls.js";
 import { byId, element, scrollingTable } from "../dom.js";
-import { keeping } from "../keeping.js";
+import { keeping, WHEN } from "../keeping.js";
 import { takeRow } from "../opening.js";
 import { save } from "../saving.js";
 import { linesOf, send } from "../server.js";
@@ -13,7 +13,6 @@ import { NOT_KEPT } from "../names.js";
 
 /** Kinds of project files. */
 const KINDS = ["toml", "json"];
-const WHEN = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" });
 
 /** @param {HTMLElement} holder */
 export function setUp(holder) {

@@ -11,7 +11,7 @@ import { inWords } from "../messages.js";
 import { labelIn } from "../fields.js";
 import { numbersOf } from "../results.js";
 import { definition, fieldOf, SECTIONS } from "../schema.js";
-import { linesOf, Problem } from "../server.js";
+import { Latest, linesOf, Problem } from "../server.js";
 import { askPatiently, sendPatiently } from "../long_work.js";
 import { LETTERS, valueAt } from "../state.js";
 import { store } from "../store.js";
@@ -71,7 +71,7 @@ export function setUp(holder) {
   const question = { path: "", output: "screw_torque" };
   /** @type {ReturnType<typeof setTimeout>} */
   let timer;
-  let requests = new AbortController();
+  const requests = new Latest();
   /** @param {Partial<Question>} found */
   const change = (found) => {
     Object.assign(question, found);
@@ -120,9 +120,7 @@ export function setUp(holder) {
 
   async function show() {
     clearTimeout(timer);
-    requests.abort();
-    requests = new AbortController();
-    const { signal } = requests;
+    const signal = requests.begin();
     holder.setAttribute("aria-busy", "true");
     try {
       const runs = await runsOf(signal);

@@ -7,7 +7,7 @@ import { element } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
 import { answerOfKept, keptJob, runJob } from "../jobs.js";
 import { progress } from "../progress.js";
-import { ask, linesOf, Problem } from "../server.js";
+import { ask, Latest, linesOf, Problem } from "../server.js";
 import { sheetPlace } from "../sheet.js";
 import * as units from "../units.js";
 
@@ -60,7 +60,7 @@ export function question({
   let answer;
   let system = "";
   const line = element("div", { class: "card-line" });
-  let request = new AbortController();
+  const requests = new Latest();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
   /** Ends what says how far it is. */
@@ -87,7 +87,7 @@ export function question({
   function stop() {
     clearTimeout(timer);
     end();
-    request.abort();
+    requests.cancel();
     asked = "";
   }
 
@@ -170,8 +170,7 @@ export function question({
     asked = key;
     told = () => {};
     mark(true, true);
-    request = new AbortController();
-    const { signal } = request;
+    const signal = requests.begin();
     const patience = setTimeout(() => signal.aborted || sayProgress(body), rest + PATIENCE);
     signal.addEventListener("abort", () => clearTimeout(patience));
     const hear = (/** @type {JobDocument} */ job) => {
