@@ -1,5 +1,6 @@
 // A chart in its place: drawn on a canvas, read below the pointer, with its legend, its numbers as a table, and both as files.
 
+import { button } from "./controls.js";
 import { byId, csv, element, table, update, within } from "./dom.js";
 import { drawFigure } from "./figure.js";
 import { vertical } from "./figure_marks.js";
@@ -230,13 +231,8 @@ class Place {
     const summary = element("summary", {}, "Numbers", element("span", { class: "hidden" }, `: ${words}`));
     const details = element("details", {}, summary);
     details.addEventListener("toggle", () => this.#showNumbers());
-    /** @param {string} label @param {() => void} action @param {boolean} [hidden] */
-    const button = (label, action, hidden = false) =>
-      element(
-        "button",
-        { type: "button", class: hidden ? "whole" : "", hidden, onclick: action, "aria-label": `${label}: ${words}` },
-        label,
-      );
+    /** @param {string} label @param {() => void} action @param {import("./dom.js").Attributes} [more] */
+    const act = (label, action, more) => button(label, action, { "aria-label": `${label}: ${words}`, ...more });
     const saveCsv = () =>
       this.#chart && save(`-${this.#chart.name}.csv`, new Blob([csv(...this.#numbers())], { type: "text/csv" }));
     const showWhole = () => {
@@ -252,9 +248,9 @@ class Place {
         "div",
         { class: "beside" },
         details,
-        button("Whole chart", showWhole, true),
-        button("CSV", saveCsv),
-        button("SVG", () => this.#saveSvg()),
+        act("Whole chart", showWhole, { class: "whole", hidden: true }),
+        act("CSV", saveCsv),
+        act("SVG", () => this.#saveSvg()),
       ),
     );
     sized.observe(plot);

@@ -133,8 +133,8 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
   const names = temperatures.map((one) => units.formattedIn(one, "degC", "K"));
   const shown = parts.converted("screw_speed", { values: speeds });
   const torques = curves.map(({ torque }) => parts.converted("screw_torque", { values: torque }));
-  const x = parts.titled("screw_speed", "speed of the screw");
-  const y = parts.titled("screw_torque", "friction torque");
+  const x = units.heading("screw_speed", "speed of the screw");
+  const y = units.heading("screw_torque", "friction torque");
   const now = answer.results.screw_torque;
   /** The coldest, the hottest, and between them that of the case. @param {number} place */
   const colour = (place) => (place === 0 ? "accent" : place === temperatures.length - 1 ? "second" : "ink");
@@ -153,7 +153,7 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
       ],
     },
     numbers: () => [
-      [x, ...names.map((name) => parts.titled("screw_torque", name)), ...names.map((name) => `valid at ${name}`)],
+      [x, ...names.map((name) => units.heading("screw_torque", name)), ...names.map((name) => `valid at ${name}`)],
       shown.map((at, i) => [
         at,
         ...torques.map((values) => values[i]),

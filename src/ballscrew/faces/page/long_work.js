@@ -27,7 +27,7 @@ const SOON = 5000;
 
 /** Addresses whose requests took too long: the next ones are jobs at once. @type {Set<string>} */
 const slow = new Set();
-const list = element("div", { id: "long-work", role: "region", "aria-label": "Work that takes long", hidden: true });
+const list = element("div", { id: "long-work", role: "region", "aria-label": "Work that takes long" });
 document.body.append(list);
 
 /** Test whether the server ended a request for its time. @param {unknown} error */
@@ -94,7 +94,7 @@ async function asJob(address, body, place, signal) {
   const leave = () => own.abort();
   if (signal.aborted) leave();
   signal.addEventListener("abort", leave);
-  const patience = setTimeout(() => show(line), PATIENCE);
+  const patience = setTimeout(() => list.append(line), PATIENCE);
   try {
     const found = await (await runJob(address, body, { place, signal: own.signal, told })).json();
     forget(place); // its answer is here
@@ -108,18 +108,6 @@ async function asJob(address, body, place, signal) {
     signal.removeEventListener("abort", leave);
     clearTimeout(patience);
     end();
-    hide(line);
+    line.remove();
   }
-}
-
-/** @param {HTMLElement} line */
-function show(line) {
-  list.append(line);
-  list.hidden = false;
-}
-
-/** @param {HTMLElement} line */
-function hide(line) {
-  line.remove();
-  list.hidden = !list.childElementCount;
 }

@@ -149,28 +149,18 @@ function outsideBand(torque, band) {
     : "";
 }
 
-/** What screen readers are told of the answer. */
-class Announcer {
-  #words = "";
-  /** @type {ReturnType<typeof setTimeout> | undefined} */
-  #timer;
+/** What screen readers are told of the answer. @type {{ words: string, timer?: ReturnType<typeof setTimeout> }} */
+const told = { words: "" };
 
-  /**
-   * Announce a text once typing has come to rest.
-   *
-   * @param {string} words
-   */
-  announce(words) {
-    if (words === this.#words) return;
-    this.#words = words;
-    clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => {
-      byId("said").textContent = words;
-    }, ANNOUNCE_AFTER);
-  }
+/** Tell a text once typing has come to rest. @param {string} words */
+function announce(words) {
+  if (words === told.words) return;
+  told.words = words;
+  clearTimeout(told.timer);
+  told.timer = setTimeout(() => {
+    byId("said").textContent = words;
+  }, ANNOUNCE_AFTER);
 }
-
-const announcer = new Announcer();
 
 /**
  * Show everything of one answer but its charts.
@@ -195,7 +185,7 @@ export function show(answer, { band, checks }, isWanted = () => true) {
   write("summary", summary);
   write("in-short", inShort.trim()); // the numbers stand above it
   if (!byId("results").classList.contains("stale")) {
-    announcer.announce(summary);
+    announce(summary);
     const title = `${torque.text} · ballscrew`;
     if (document.title !== title) document.title = title;
   }
@@ -441,7 +431,7 @@ export function fail({ lines, said }) {
   const standing = "The results below are those of the previous input.";
   const all = before ? [...lines, standing] : lines;
   byId("faults").replaceChildren(...all.map((line) => element("p", {}, line)));
-  announcer.announce(before ? `${said} ${standing}` : said);
+  announce(before ? `${said} ${standing}` : said);
 }
 
 /** True where the answer on the page is not that of its case. */

@@ -9,7 +9,7 @@ import { get } from "../server.js";
 import * as units from "../units.js";
 import { buttonCard } from "./button_card.js";
 import { caseFile } from "./log_parts.js";
-import { lines } from "./records.js";
+import { warningLines } from "./records.js";
 
 /** Ranges that may be given, with an example. @type {Record<string, string>} */
 const RANGES = { axial_load: "-5:5 kN", screw_speed: "-300:300 rpm" };
@@ -119,7 +119,7 @@ export function setUp(holder) {
         element("p", {}, `${names.join(", ")} (${Math.ceil(bytes.length / 1000)} kB)`),
         element("p", { class: "card-start" }, download),
         ...(rows.length ? [scrollingTable(caption, headings, rows)] : []),
-        ...lines([], warnings),
+        ...warningLines(warnings),
         ranges,
       ),
     );

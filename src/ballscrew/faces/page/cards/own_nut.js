@@ -10,7 +10,7 @@ import { LETTERS } from "../state.js";
 import { store } from "../store.js";
 import { currentSystem, formattedIn, inSystem, symbol, withPoint, withPowers } from "../units.js";
 import { faultLines } from "./log_parts.js";
-import { lines } from "./records.js";
+import { warningLines } from "./records.js";
 
 /** Kinds of nut in words. @type {Record<string, string>} */
 const KINDS_IN_WORDS = {
@@ -184,5 +184,5 @@ function shown({ estimates, warnings }) {
     return [labelOf(`screw.${PLACES[one.name] ?? one.name}`), value, low, high, one.source];
   });
   const caption = "Estimated: the catalogue does not say";
-  return [...lines([], warnings), scrollingTable(caption, headings, rows)];
+  return [...warningLines(warnings), scrollingTable(caption, headings, rows)];
 }
