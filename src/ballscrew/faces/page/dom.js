@@ -59,6 +59,11 @@ export function within(holder, selector) {
   return found;
 }
 
+/** The field of a path inside another element. @param {Element} holder @param {string} path @returns {HTMLElement | null} */
+export function fieldIn(holder, path) {
+  return holder.querySelector(`[data-path="${CSS.escape(path)}"]`);
+}
+
 /**
  * A table with a caption, headings above and, where wanted, beside.
  *

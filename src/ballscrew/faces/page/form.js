@@ -2,7 +2,7 @@
 
 import { current, isOfFile, ownScrewOf, setAside, setTables, tablesOf } from "./designs.js";
 import { box, button } from "./controls.js";
-import { byId, element, NARROW, within } from "./dom.js";
+import { byId, element, fieldIn, NARROW, within } from "./dom.js";
 import { inWords, labelOf, markFaults } from "./messages.js";
 import { choiceField, fieldFor, labelIn, numberField, showEffective } from "./fields.js";
 import * as help from "./help.js";
@@ -130,14 +130,9 @@ export function mark(path, differs) {
   within(field, ".differs").textContent = differs ? " changed" : "";
 }
 
-/**
- * @param {string} path
- * @returns {HTMLElement | undefined}
- */
+/** @param {string} path */
 function fieldAt(path) {
-  /** @type {NodeListOf<HTMLElement>} */
-  const fields = byId("form").querySelectorAll("[data-path]");
-  return [...fields].find((one) => one.dataset.path === path);
+  return fieldIn(byId("form"), path);
 }
 
 /** @param {Source} source */

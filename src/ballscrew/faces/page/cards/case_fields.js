@@ -1,7 +1,7 @@
 // Fields of a card: sections of the case that the form does not show, with their faults beside them.
 
 import { framed } from "../controls.js";
-import { element } from "../dom.js";
+import { element, fieldIn } from "../dom.js";
 import { markFaults } from "../messages.js";
 import { fieldFor, showEffective } from "../fields.js";
 import * as schema from "../schema.js";
@@ -52,7 +52,5 @@ export function showValues(holder, inputs) {
  * @returns {FaultLine[]} those of no field here
  */
 export function placeFaults(holder, faults) {
-  /** @type {NodeListOf<HTMLElement>} */
-  const places = holder.querySelectorAll("[data-path]");
-  return markFaults(holder, faults, ({ path }) => [...places].find((one) => one.dataset.path === path));
+  return markFaults(holder, faults, ({ path }) => fieldIn(holder, path));
 }

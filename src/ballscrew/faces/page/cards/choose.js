@@ -2,7 +2,7 @@
 
 import * as designs from "../designs.js";
 import { box, button, framed, namedButton, primaryButton } from "../controls.js";
-import { element, within } from "../dom.js";
+import { element, fieldIn, within } from "../dom.js";
 import { inWords, labelOf, markFaults } from "../messages.js";
 import { fieldFor, labelIn } from "../fields.js";
 import { drop, keptJob } from "../jobs.js";
@@ -239,7 +239,7 @@ export function setUp(holder) {
   function place(lines) {
     const others = markFaults(fields, lines, ({ where }) => {
       const known = Object.entries(FIELDS).find(([name, path]) => [path, `need.${name}`, name].includes(where));
-      return known && fields.querySelector(`[data-path="need.${known[0]}"]`);
+      return known && fieldIn(fields, `need.${known[0]}`);
     });
     faults.replaceChildren(...others.map((fault) => element("p", {}, `${labelOf(fault.where)}: ${inWords(fault)}`)));
     fields.querySelector(".wrong")?.scrollIntoView({ block: "nearest" });
