@@ -182,11 +182,11 @@ export function setUp(holder) {
 
   async function ask() {
     counted.hidden = true;
-    const table = withTable ? store.state.table?.file : undefined;
-    about = await tables(need());
-    const body = { need: about, ...(table && { table }) };
     coming = [];
+    const table = withTable ? store.state.table?.file : undefined;
     try {
+      about = await tables(need());
+      const body = { need: about, ...(table && { table }) };
       if (await isAgreed(body)) counted.hidden = !asked.follow(body, 0);
     } catch (error) {
       asked.refuse(error);
