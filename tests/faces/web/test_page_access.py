@@ -191,6 +191,7 @@ def test_no_scrolling_to_the_side(visit, width):
 
 def test_the_answer_is_in_sight_of_who_types_on_a_phone(visit):
     here = visit(**SIZES["phone"]).open()
+    here.page.locator("#case-column > summary").click()
     here.page.locator("#f-operation-axial_load").focus()
     here.page.keyboard.press("ArrowUp")
     here.settle()

@@ -165,5 +165,5 @@ def test_a_selection_of_another_need_is_not_resumed(visit):
     here.rest(500)
     page.reload()
     page.wait_for_selector("#choose-start")
-    page.wait_for_function("() => !sessionStorage.getItem('ballscrew.job.choose')")
+    page.wait_for_function("() => !sessionStorage.getItem('ballscrew.job.select')")
     assert page.locator("#choose-result tbody tr").count() == 0

@@ -10,7 +10,7 @@ import { setUp as filesCard } from "./cards/files.js";
 import { setUp as handOver } from "./cards/hand_over.js";
 import { setUp as optimise } from "./cards/optimise.js";
 import { setUp as overInput } from "./cards/over_input.js";
-import { setUp as ownNut } from "./cards/own_nut_card.js";
+import { setUp as ownNut } from "./cards/own_nut.js";
 import { setUp as service } from "./cards/service.js";
 import { setUp as warmUp } from "./cards/warm_up.js";
 

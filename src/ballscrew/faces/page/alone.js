@@ -5,10 +5,11 @@ import { ballAt, ballDrawing } from "./ball_drawing.js";
 import { Banding } from "./banding.js";
 import { makersIn, uncertainIn } from "./bands.js";
 import { read, tomlOf } from "./case_alone.js";
-import { axesAround } from "./case_values.js";
+import { axesAround, plain } from "./case_values.js";
 import { moduleOf, site } from "./embedded.js";
 import { Engine } from "./engine.js";
 import { judgedAt, recordsOf, textOf } from "./judgements.js";
+import { pointsOf } from "./local_engine.js";
 import { Problem } from "./server.js";
 import { FLOODED, floodedTorqueIn, FULL_BATH, REPLENISHMENT } from "./starvation.js";
 import * as units from "./units.js";
@@ -27,11 +28,6 @@ const OF_ROWS = ["contact_load", "rolling_share"];
 
 /** Numbers between commas or colons, and a unit. */
 const AXIS = /^((?:[-+]?[\d.]+(?:e[-+]?\d+)?(?:\s*[,:]\s*)?)+)(?:\s+(\S.*))?$/i;
-
-/** A number as an answer has it. @param {number | undefined} value */
-function plain(value) {
-  return value !== undefined && Number.isFinite(value) ? value : null;
-}
 
 class Alone {
   contents;
@@ -274,9 +270,7 @@ class Alone {
    */
   #swept(subject, axes, outputs) {
     const names = Object.keys(axes);
-    let points = [/** @type {Record<string, number>} */ ({})];
-    for (const name of names)
-      points = points.flatMap((point) => axes[name].map((value) => ({ ...point, [name]: value })));
+    const points = pointsOf(/** @type {Record<string, number>} */ ({}), axes);
     /** @type {Record<string, Float64Array>} */
     const changes = {};
     for (const name of names) {

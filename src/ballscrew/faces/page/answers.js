@@ -4,9 +4,9 @@ import * as bath from "./bath.js";
 import { isVisible, move, showFailure, showWords } from "./chart_place.js";
 import * as charts from "./charts.js";
 import * as checks from "./checks.js";
-import { showDesigns, showModels } from "./compare.js";
+import { showDesigns } from "./compare.js";
 import { caseOf, titleOf } from "./designs.js";
-import { byId, update } from "./dom.js";
+import { byId, NARROW, update } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { hotAndCold as hot } from "./hot_and_cold.js";
 import * as inputs from "./inputs.js";
@@ -21,8 +21,9 @@ import { powerFlow } from "./power_flow.js";
 import * as quadrants from "./quadrants.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
+import { sheetPlace } from "./sheet.js";
 import { alone, keep, known, Latest, linesOf, Problem, sendLines } from "./server.js";
-import { LETTERS } from "./state.js";
+import { isSame, LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import { store } from "./store.js";
 import * as temperatures from "./temperatures.js";
@@ -50,7 +51,7 @@ const PAINT_TIMEOUT = 500;
 /**
  * Inputs that are moved, whether axes stay as they are, when it began, and the case where that has them already.
  *
- * @typedef {{ values: import("./moving.js").Values, isHeld: boolean, start: number, body?: Body }} Moved
+ * @typedef {{ values: import("./engine.js").Values, isHeld: boolean, start: number, body?: Body }} Moved
  */
 /**
  * Everything on the page: the case, its answer and band, the sweeps of its charts, the other designs and models.
@@ -63,12 +64,8 @@ const PAINT_TIMEOUT = 500;
  * @property {checks.Judged} [checks]
  * @property {results.Band | null} band
  * @property {string[]} starts
- * @property {Sweep} [alongSpeed]
+ * @property {Record<string, any>} curves what is drawn beside it, by the names of the lines of an answer: sweeps, and the drawing
  * @property {Sweep | string} [bandAlongSpeed] the band of the torque over the speed, or why there is none
- * @property {Sweep} [alongLoad]
- * @property {Sweep} [everywhere]
- * @property {Sweep} [hotAndCold]
- * @property {DrawingAnswer} [drawing]
  * @property {import("./compare.js").Answers} [designs]
  * @property {Question} [asked] what the designs answer
  * @property {Compare} [models]
@@ -117,14 +114,6 @@ async function others({ body, beside, signal }, error) {
 function atOnePoint(bodies, own) {
   const { operation } = bodies[0].case;
   return own || !operation ? bodies : bodies.map((one) => ({ case: { ...one.case, operation } }));
-}
-
-/**
- * @param {Body} one
- * @param {Body} other
- */
-function isSame(one, other) {
-  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 /** Why a design has no answer, in words. @param {unknown} error */
@@ -246,7 +235,7 @@ class Answers {
   /** Those of the checks: an edit of a card asks for them alone. */
   #judging = new Latest();
   /** @type {Displayed} */
-  #displayed = { band: null, starts: [] };
+  #displayed = { band: null, starts: [], curves: {} };
 
   /** What is shown of a change before the server has answered. @type {Moved | undefined} */
   #moved;
@@ -257,6 +246,8 @@ class Answers {
   /** Its next curves, where they do not fit into a frame. @type {ReturnType<typeof setTimeout> | undefined} */
   #curves;
   #never = new AbortController();
+  /** All models and laws. */
+  #models = sheetPlace("models");
   /** What draws the parts of the answer that nobody sees yet. @type {(() => unknown)[]} */
   #undrawn = [];
 
@@ -264,8 +255,8 @@ class Answers {
     dragged.addEventListener("move", (event) => {
       if (this.#followPoint(/** @type {CustomEvent} */ (event).detail)) event.preventDefault();
     });
-    drawings.NARROW.addEventListener("change", () => {
-      if (this.#displayed.drawing) drawings.show(this.#displayed.drawing);
+    NARROW.addEventListener("change", () => {
+      if (this.#displayed.curves.drawing) drawings.show(this.#displayed.curves.drawing);
       if (this.#displayed.answer) nutPicture.show(this.#displayed.answer);
     });
   }
@@ -374,15 +365,15 @@ class Answers {
       answer,
       moved: { values, isHeld, start },
     } = this.#shown;
-    const { alongSpeed, alongLoad, everywhere } = this.#displayed;
-    const isNear = (/** @type {string[]} */ ...ids) => ids.some(isVisible);
-    const isAsked = (/** @type {string} */ name, /** @type {string[]} */ ...ids) =>
-      names.includes(name) && isNear(...ids);
-    const before = {
-      ...(alongSpeed && isAsked("over_speed", "torque-chart", "film-chart") && { over_speed: alongSpeed }),
-      ...(alongLoad && isAsked("over_load", "pressure-chart") && { over_load: alongLoad }),
-      ...(everywhere && isAsked("over_both", "map-chart") && { over_both: everywhere }),
+    /** @type {Record<string, string[]>} */
+    const places = {
+      over_speed: ["torque-chart", "film-chart"],
+      over_load: ["pressure-chart"],
+      over_both: ["map-chart"],
     };
+    const { curves } = this.#displayed;
+    const asked = names.filter((name) => curves[name] && places[name].some(isVisible));
+    const before = Object.fromEntries(asked.map((name) => [name, curves[name]]));
     move(["torque-chart", "film-chart", "stribeck-chart", "hot-chart", "pressure-chart", "map-chart"], isHeld, () => {
       const found = moving.curvesOf(before, values, isHeld, TIME_OF_CURVES);
       if (found.over_speed) {
@@ -444,23 +435,17 @@ class Answers {
   /** Show all of it again in other units, without requests. */
   redisplay() {
     const found = this.#displayed;
-    const { answer, alongSpeed, everywhere, alongLoad, hotAndCold, drawing, designs, models } = found;
+    const { answer, curves, designs, models } = found;
     if (!answer) return;
     results.show(answer, found);
     for (const [, draw] of PICTURES) draw(answer);
     checks.show(found.checks);
-    if (alongSpeed) {
-      this.#drawTorque(answer);
-      charts.film(alongSpeed, answer);
-      charts.stribeck(alongSpeed, answer);
+    for (const [question, one] of Object.entries(curves)) {
+      for (const draw of Object.values(this.#drawers[question])) draw(answer, one);
     }
-    if (everywhere) charts.map(everywhere, answer);
-    if (alongLoad) charts.pressure(alongLoad, answer);
-    if (hotAndCold) temperatures.show(hotAndCold, answer);
-    if (hotAndCold) hot.redisplay();
-    if (drawing) drawings.show(drawing);
+    hot.redisplay();
     if (designs) showDesigns(designs, found.starts, vocabulary.mechanisms);
-    if (models) showModels(models);
+    if (models) this.#models.show(/** @type {any} */ (models.sheet));
   }
 
   /**
@@ -509,7 +494,8 @@ class Answers {
         return;
       }
       this.#displayed.models = found;
-      showModels(found);
+      byId("models").replaceChildren(this.#models.head, this.#models.place);
+      this.#models.show(/** @type {any} */ (found.sheet));
     } catch (error) {
       byId("models").textContent = linesOf(error).join("; ");
     }
@@ -546,7 +532,7 @@ class Answers {
       if (place === 0) {
         if (question === "run") this.#showNumbers(/** @type {any} */ (line).answer, asked);
         else if (question === "check") judged = this.#showChecks(body);
-        else await this.#charts[question](line, asked);
+        else await this.#drawLine(line, asked);
         if ("sweep" in line && isLate(line)) this.#goOn(line, asked).catch(fail(signal));
         isWarm ||= question === "cold_and_hot";
       }
@@ -586,7 +572,7 @@ class Answers {
     } catch (error) {
       found = { problem: { title: "", lines: linesOf(error) } };
     }
-    if (!signal.aborted) await this.#charts[question]({ question, place, ...found }, asked);
+    if (!signal.aborted) await this.#drawLine({ question, place, ...found }, asked);
   }
 
   /**
@@ -599,9 +585,21 @@ class Answers {
     const key = JSON.stringify(body);
     const { designs, asked, starts } = this.#displayed;
     /** @type {Displayed} */
-    const before = this.#displayed.key === key ? this.#displayed : { band: null, starts };
+    const before = this.#displayed.key === key ? this.#displayed : { band: null, starts, curves: {} };
     const { checks: checked, band, bandAlongSpeed } = before;
-    this.#displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs, asked, starts };
+    this.#displayed = {
+      body,
+      whole,
+      key,
+      answer,
+      checks: checked,
+      band,
+      bandAlongSpeed,
+      designs,
+      asked,
+      starts,
+      curves: {},
+    };
     this.#rest();
     tell(body, answer);
     inputs.showAnswer(answer);
@@ -647,42 +645,33 @@ class Answers {
     checks.show(checked);
   }
 
-  /** What draws each curve, and the drawing. @type {Record<string, (line: AnswerLine, asked: Question) => Promise<void>>} */
-  #charts = {
-    over_speed: async (line, asked) => {
-      await this.#drawn("torque-chart", line, asked, (answer, found) => {
-        this.#displayed.alongSpeed = found;
-        this.#showHot();
-        return this.#drawTorque(answer);
-      });
-      if ("answer" in line) measurePaint("chart", asked.start, asked.signal);
-      await this.#drawn("film-chart", line, asked, (answer, found) => charts.film(found, answer));
-      await this.#drawn("stribeck-chart", line, asked, (answer, found) => charts.stribeck(found, answer));
+  /** What draws a curve or the drawing, by its line and its places. @type {Record<string, Record<string, (answer: Run, found: any) => unknown>>} */
+  #drawers = {
+    over_speed: {
+      "torque-chart": (answer) => this.#drawTorque(answer),
+      "film-chart": (answer, found) => charts.film(found, answer),
+      "stribeck-chart": (answer, found) => charts.stribeck(found, answer),
     },
-    cold_and_hot: (line, asked) => {
-      if ("problem" in line || !this.#displayed.alongSpeed) hot.leaveOut(); // that of the case before
-      return this.#drawn("temperatures", line, asked, (answer, found) => {
-        this.#displayed.hotAndCold = found;
-        temperatures.show(found, answer);
-        this.#showHot();
-      });
-    },
-    over_both: (line, asked) =>
-      this.#drawn("map-chart", line, asked, (answer, found) => {
-        this.#displayed.everywhere = found;
-        return charts.map(found, answer);
-      }),
-    over_load: (line, asked) =>
-      this.#drawn("pressure-chart", line, asked, (answer, found) => {
-        this.#displayed.alongLoad = found;
-        return charts.pressure(found, answer);
-      }),
-    drawing: (line, asked) =>
-      this.#drawn("drawing", line, asked, (_, found) => {
-        this.#displayed.drawing = found;
-        drawings.show(found);
-      }),
+    cold_and_hot: { temperatures: (answer, found) => temperatures.show(found, answer) },
+    over_both: { "map-chart": (answer, found) => charts.map(found, answer) },
+    over_load: { "pressure-chart": (answer, found) => charts.pressure(found, answer) },
+    drawing: { drawing: (_, found) => drawings.show(found) },
   };
+
+  /** @param {AnswerLine} line @param {Question} asked */
+  async #drawLine(line, asked) {
+    const { question } = line;
+    // that of the case before
+    if (question === "cold_and_hot" && ("problem" in line || !this.#displayed.curves.over_speed)) hot.leaveOut();
+    for (const [id, draw] of Object.entries(this.#drawers[question])) {
+      await this.#drawn(id, line, asked, (answer, found) => {
+        this.#displayed.curves[question] = found;
+        return draw(answer, found);
+      });
+      if (id === "torque-chart" && "answer" in line) measurePaint("chart", asked.start, asked.signal);
+    }
+    if (["over_speed", "cold_and_hot"].includes(question) && "answer" in line && !asked.signal.aborted) this.#showHot();
+  }
 
   /**
    * Draw an answer, once what was drawn before is on the screen, or show why there is none.
@@ -726,13 +715,15 @@ class Answers {
 
   /** Show the curves cold and hot, once the sweeps over the temperature and over the speed are both there. */
   #showHot() {
-    const { body, answer, hotAndCold, alongSpeed } = this.#displayed;
-    if (body && answer && hotAndCold && alongSpeed) hot.show(body, answer, hotAndCold, alongSpeed);
+    const { body, answer, curves } = this.#displayed;
+    const { cold_and_hot: table, over_speed: alongSpeed } = curves;
+    if (body && answer && table && alongSpeed) hot.show(body, answer, table, alongSpeed);
   }
 
   /** Draw the torque over the speed, with its band where that is there. @param {Run} answer */
   #drawTorque(answer) {
-    const { alongSpeed, band, bandAlongSpeed } = this.#displayed;
+    const { curves, band, bandAlongSpeed } = this.#displayed;
+    const alongSpeed = curves.over_speed;
     return alongSpeed && charts.torque(alongSpeed, answer, vocabulary.mechanisms, band ? bandAlongSpeed : undefined);
   }
 
@@ -772,7 +763,7 @@ class Answers {
    * @param {AbortSignal} signal
    */
   async #addBandAlongSpeed(body, answer, signal) {
-    const { alongSpeed } = this.#displayed;
+    const alongSpeed = this.#displayed.curves.over_speed;
     if (!alongSpeed) return;
     const step = answer.loads ? STEP_OF_BAND.nut : STEP_OF_BAND.screw;
     const all = /** @type {number[]} */ (alongSpeed.axes.screw_speed.values);
@@ -787,7 +778,7 @@ class Answers {
       if (signal.aborted) return;
       found = linesOf(error).join("; ");
     }
-    if (signal.aborted || alongSpeed !== this.#displayed.alongSpeed) return;
+    if (signal.aborted || alongSpeed !== this.#displayed.curves.over_speed) return;
     this.#displayed.bandAlongSpeed = found;
     await this.#drawTorque(answer);
   }

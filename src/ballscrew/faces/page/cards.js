@@ -1,6 +1,6 @@
 // Cards: parts of the page that are set up when they are first seen, and that answer questions of their own.
 
-import { byId, element } from "./dom.js";
+import { byId, element, fieldIn } from "./dom.js";
 import { jump as jumpInForm } from "./form.js";
 import { needsProgram, setUp as askProgram } from "./needs_program.js";
 import { alone, linesOf } from "./server.js";
@@ -101,9 +101,7 @@ export async function jump(path) {
   const holder = byId(name);
   await views.go(view);
   await places.find((place) => place.name === name)?.follow(true); // it may not be set up yet
-  /** @type {NodeListOf<HTMLElement>} */
-  const fields = holder.querySelectorAll("[data-path]");
-  const field = [...fields].find((one) => one.dataset.path === path);
+  const field = fieldIn(holder, path);
   views.release(); // the field is where one goes, not its section
   (field ?? holder).scrollIntoView({ block: "center" });
   /** @type {HTMLElement | null | undefined} */ (field?.querySelector("input, select"))?.focus();

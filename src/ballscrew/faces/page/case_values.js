@@ -8,6 +8,11 @@ import * as units from "./units.js";
 /** Digits of a value of an axis, as the server has them. */
 const DIGITS = 6;
 
+/** A number as an answer has it; none of what is no number. @param {number | null | undefined} value */
+export function plain(value) {
+  return typeof value === "number" && Number.isFinite(value) ? value : null;
+}
+
 /**
  * Everything in tables by its path, as JSON. An empty table counts, too: ``bodies`` without sizes is elastic.
  *

@@ -1,4 +1,4 @@
-// What charts show of answers: values in the units of the page, and titles.
+// What charts show of answers: values in the units of the page.
 
 import * as units from "./units.js";
 
@@ -39,14 +39,4 @@ export function validAlong(swept) {
  */
 export function operationOf(answer) {
   return /** @type {{ axial_load: number, screw_speed: number }} */ (answer.inputs.operation);
-}
-
-/**
- * The title of an axis: a name and its unit.
- *
- * @param {string} name
- * @param {string} words
- */
-export function titled(name, words) {
-  return `${words} (${units.symbol(units.unitOf(name))})`;
 }

@@ -1,16 +1,18 @@
 // A chart in its place: drawn on a canvas, read below the pointer, with its legend, its numbers as a table, and both as files.
 
+import { button } from "./controls.js";
 import { byId, csv, element, table, update, within } from "./dom.js";
 import { drawFigure } from "./figure.js";
 import { vertical } from "./figure_marks.js";
 import { follow } from "./figure_pointer.js";
 import { legendOf, numbersOf, readingElement } from "./figure_words.js";
+import * as point from "./operating_point.js";
 import { forget, ofScreen, PAPER, shade } from "./palette.js";
 import { CanvasPen, corners, SvgPen, widthOf } from "./pen.js";
+import { save } from "./saving.js";
 
-/** @typedef {import("./figure.js").Figure} Figure */
-/** @typedef {import("./figure.js").Frame} Frame */
-/** @typedef {import("./palette.js").Palette} Palette */
+/** @import { Figure, Frame } from "./figure.js" */
+/** @import { Palette } from "./palette.js" */
 /** @typedef {{ width: number, height: number }} Size */
 /**
  * A chart: a name for its files, a description, a caption of its numbers, and its figure.
@@ -21,18 +23,7 @@ import { CanvasPen, corners, SvgPen, widthOf } from "./pen.js";
  * @property {string} caption
  * @property {Figure} figure
  * @property {() => import("./figure_words.js").Numbers} [numbers] where they are not those of the figure
- * @property {Drag} [drag] what moves its operating point, where that can be dragged
- * @property {(name: string, content: Blob) => void} save a file of the chart, by what its name ends with
- */
-/**
- * What moves an operating point: where it is drawn for a place of the pointer, in the values of the axes; ``moved`` is true
- * where somebody draws it there, else it alone is drawn.
- *
- * @typedef {object} Drag
- * @property {(x: number, y: number) => [number, number]} place
- * @property {(at: [number, number]) => boolean} moved
- * @property {(at: [number, number]) => void} dropped
- * @property {() => void} left where it was
+ * @property {point.Handle} [drag] what moves its operating point, where that can be dragged
  */
 
 /** Size of a chart on paper, in a file, and dots of a pixel on paper. */
@@ -214,7 +205,7 @@ class Place {
   }
 
   #saveSvg() {
-    const { name, description, figure, save } = /** @type {Chart} */ (this.#chart);
+    const { name, description, figure } = /** @type {Chart} */ (this.#chart);
     const height = Math.max(
       IN_FILE.height,
       Number.parseFloat(this.holder.style.getPropertyValue("--plot-height")) || 0,
@@ -240,15 +231,10 @@ class Place {
     const summary = element("summary", {}, "Numbers", element("span", { class: "hidden" }, `: ${words}`));
     const details = element("details", {}, summary);
     details.addEventListener("toggle", () => this.#showNumbers());
-    /** @param {string} label @param {() => void} action @param {boolean} [hidden] */
-    const button = (label, action, hidden = false) =>
-      element(
-        "button",
-        { type: "button", class: hidden ? "whole" : "", hidden, onclick: action, "aria-label": `${label}: ${words}` },
-        label,
-      );
+    /** @param {string} label @param {() => void} action @param {import("./dom.js").Attributes} [more] */
+    const act = (label, action, more) => button(label, action, { "aria-label": `${label}: ${words}`, ...more });
     const saveCsv = () =>
-      this.#chart?.save(`-${this.#chart.name}.csv`, new Blob([csv(...this.#numbers())], { type: "text/csv" }));
+      this.#chart && save(`-${this.#chart.name}.csv`, new Blob([csv(...this.#numbers())], { type: "text/csv" }));
     const showWhole = () => {
       this.#enlarge({});
       summary.focus(); // the button is gone
@@ -262,9 +248,9 @@ class Place {
         "div",
         { class: "beside" },
         details,
-        button("Whole chart", showWhole, true),
-        button("CSV", saveCsv),
-        button("SVG", () => this.#saveSvg()),
+        act("Whole chart", showWhole, { class: "whole", hidden: true }),
+        act("CSV", saveCsv),
+        act("SVG", () => this.#saveSvg()),
       ),
     );
     sized.observe(plot);
@@ -305,14 +291,14 @@ class Place {
         const handle = this.#chart?.drag;
         if (!handle) return;
         this.#dragged = handle.place(...at);
-        if (!handle.moved(this.#dragged)) this.paint();
+        if (!point.isFollowed(handle, this.#dragged)) this.paint(); // nobody else draws it there
       },
       drop: (isDropped) => {
         const [handle, at] = [this.#chart?.drag, this.#dragged];
         this.#dragged = undefined;
-        if (isDropped && handle && at) handle.dropped(at);
+        if (isDropped && handle && at) point.take(handle, at);
         else {
-          handle?.left();
+          if (handle) point.letGo();
           this.paint();
         }
       },

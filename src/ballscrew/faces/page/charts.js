@@ -1,18 +1,16 @@
 // Charts of an operating point over its speed and its load: the torque and its parts, efficiency, film, pressure, Stribeck.
 
 import * as parts from "./chart_parts.js";
-import { hide } from "./chart_place.js";
+import { draw, hide } from "./chart_place.js";
 import { element } from "./dom.js";
 import { linesByValidity, OUTSIDE, outside, pointAt } from "./figure_parts.js";
 import { yesOrNo } from "./figure_words.js";
-import { draw } from "./plot.js";
 import { data, greatestPressure, leastFilm } from "./results.js";
 import { extent } from "./scale.js";
 import { FLOODED, fullBath } from "./starvation.js";
 import * as units from "./units.js";
 
-/** @typedef {import("./figure.js").Mark} Mark */
-/** @typedef {import("./figure.js").Zone} Zone */
+/** @import { Mark, Zone } from "./figure.js" */
 
 // light enough everywhere for dark lines, also for people who do not see red or green
 const SHADES = ["#8296b5", "#c3b98c", "#ffe945"];
@@ -132,14 +130,14 @@ export function torque(swept, answer, mechanisms, banded) {
     return total[place];
   };
   const note = element("span", { class: "value" }, data("screw_torque", sum));
-  const title = parts.titled("screw_torque", "friction torque");
+  const title = units.heading("screw_torque", "friction torque");
   draw("torque-chart", {
     name: "torque_over_speed",
     drag: { x: "screw_speed", place: (at) => [at, nearest(at)] },
     caption: `friction torque and its parts at ${load}`,
     description: `Friction torque against speed at ${load}, stacked by mechanism. At the operating point ${units.formatted("screw_torque", sum)}.`,
     figure: {
-      x: { title: parts.titled("screw_speed", "speed of the screw") },
+      x: { title: units.heading("screw_speed", "speed of the screw") },
       y: { title, zero: true },
       marks: [
         ...stacked,
@@ -201,11 +199,11 @@ export function map(swept, answer) {
     description: `Efficiency over axial load and speed; at the operating point ${efficiency}.`,
     figure: {
       x: {
-        title: parts.titled("screw_speed", "speed of the screw"),
+        title: units.heading("screw_speed", "speed of the screw"),
         from: Math.min(...speeds),
         to: Math.max(...speeds),
       },
-      y: { title: parts.titled("axial_load", "axial load"), from: Math.min(...loads), to: Math.max(...loads) },
+      y: { title: units.heading("axial_load", "axial load"), from: Math.min(...loads), to: Math.max(...loads) },
       marks: [
         {
           kind: "grid",
@@ -288,7 +286,7 @@ export function film(swept, answer) {
     caption: "film parameter over speed",
     description: `Film parameter against speed; ${units.digits(now)} at the operating point.`,
     figure: {
-      x: { title: parts.titled("screw_speed", "speed of the screw") },
+      x: { title: units.heading("screw_speed", "speed of the screw") },
       y: { title: "film parameter λ", from: 0, to: highest },
       marks: [
         ...zones,
@@ -314,8 +312,8 @@ export function pressure(swept, answer) {
     caption: "greatest contact pressure over axial load",
     description: `Greatest contact pressure against axial load; ${units.formatted("maximum_pressure", now)} at the operating point.`,
     figure: {
-      x: { title: parts.titled("axial_load", "axial load") },
-      y: { title: parts.titled("maximum_pressure", "greatest pressure"), zero: true },
+      x: { title: units.heading("axial_load", "axial load") },
+      y: { title: units.heading("maximum_pressure", "greatest pressure"), zero: true },
       marks: [
         ...sides(loads, swept, PRESSURES),
         outside(loads, parts.validAlong(swept)),
@@ -397,7 +395,7 @@ export function stribeck(swept, answer) {
     }),
   );
   const torqueNow = answer.results.screw_torque;
-  const title = parts.titled("screw_torque", "friction torque");
+  const title = units.heading("screw_torque", "friction torque");
   const regime = (now && REGIMES.find(([, , to]) => now < to)?.[0]) || "";
   const lines = linesByValidity(
     films,
@@ -417,7 +415,7 @@ export function stribeck(swept, answer) {
       marks: [...zones, ...lines, pointAt(now, units.inDisplayUnit("screw_torque", torqueNow))],
     },
     numbers: () => [
-      [x, title, parts.titled("screw_speed", "speed of the screw"), "valid"],
+      [x, title, units.heading("screw_speed", "speed of the screw"), "valid"],
       points.map((one) => [one.film, one.torque, one.speed, yesOrNo(one.valid)]),
     ],
   });

@@ -2,7 +2,7 @@
 
 import { jump } from "./cards.js";
 import { byId, element, table, update } from "./dom.js";
-import { CHECKS } from "./names.js";
+import { nameOfCheck } from "./names.js";
 import * as units from "./units.js";
 
 /** Display units, by SI unit. @type {Record<string, string>} */
@@ -35,15 +35,6 @@ export function ofCycle({ checks: all }) {
 }
 
 /**
- * A check in words.
- *
- * @param {OneCheck} check
- */
-function nameOf({ name }) {
-  return CHECKS[name] ?? name.replaceAll("_", " ");
-}
-
-/**
  * All checks in one sentence, with the number of those judged where not all were; nothing passes that was not judged.
  * Of a cycle it says so.
  *
@@ -56,7 +47,7 @@ export function verdict(found) {
 /** @param {Judged} found */
 function inWords({ checks, judged, holds }) {
   const all = checks.length;
-  const failed = checks.filter((one) => one.holds === false).map(nameOf);
+  const failed = checks.filter((one) => one.holds === false).map(nameOfCheck);
   const rest = judged < all ? ` ${judged} of ${all} checks judged.` : "";
   if (failed.length) return `Fails: ${failed.join(", ")}.${rest}`;
   if (holds) return `All ${all} checks hold.`;
@@ -135,7 +126,7 @@ function used(check) {
     const [path, wanted] = FIELDS[check.missing] ?? [];
     if (!path) return element("span", {}, "not judged ", ...sourceOf(check));
     const button = element("button", { type: "button", onclick: () => jump(path) }, wanted);
-    button.setAttribute("aria-label", `${nameOf(check)}: ${wanted}`);
+    button.setAttribute("aria-label", `${nameOfCheck(check)}: ${wanted}`);
     return element("span", {}, "not judged ", button, " ", ...sourceOf(check));
   }
   const tone = toneOf(check);
@@ -184,7 +175,7 @@ export function panel(found, caption) {
   const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
   const headings = ["", "value and limit", "used"];
   const rows = found.checks.map((check) => [
-    element("span", { title: check.text }, nameOf(check)),
+    element("span", { title: check.text }, nameOfCheck(check)),
     element("span", {}, numberOf(check), limitOf(check, found.checks)),
     used(check),
   ]);

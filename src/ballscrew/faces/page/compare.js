@@ -1,4 +1,4 @@
-// Designs side by side, and the case with other models and laws.
+// Designs side by side.
 
 import { operationOf } from "./chart_parts.js";
 import { wordsOf } from "./charts.js";
@@ -51,7 +51,12 @@ function beside(run) {
  */
 function delta(value, first) {
   if (typeof value !== "number" || typeof first !== "number" || first === 0) return null;
-  return element("span", { class: "delta" }, percentage(value / first - 1, "±0 %"));
+  const change = value / first - 1;
+  return element(
+    "span",
+    { class: "delta" },
+    change ? `${change > 0 ? "+" : ""}${units.digits(100 * change, 3)} %` : "±0 %",
+  );
 }
 
 /**
@@ -176,60 +181,4 @@ function conditions(runs) {
 function alongOf(run) {
   const { lead } = /** @type {{ lead: number }} */ (run.inputs.screw);
   return (operationOf(run).screw_speed * lead) / (2 * Math.PI);
-}
-
-/** @typedef {{ name: string, slot?: string, counts?: boolean } & Compare["case"]} ComparedRow */
-
-/** @param {ComparedRow} row */
-function validity({ counts, valid, not_valid_because: reasons }) {
-  if (counts === false) return "printed form, breaks a balance";
-  return valid ? "yes" : reasons.map((reason) => nameOf({ id: `validity.${reason}` })).join(", ");
-}
-
-/** @param {number | null} change */
-function percentage(change, none = "–") {
-  return change ? `${change > 0 ? "+" : ""}${units.digits(100 * change, 3)} %` : none;
-}
-
-/**
- * All models and laws side by side.
- *
- * @param {Compare} found
- */
-export function showModels(found) {
-  /** @param {ComparedRow} row */
-  const line = (row, name = row.slot ? `${row.slot.replaceAll("_", " ")}: ${row.name}` : row.name) => [
-    name,
-    data("screw_torque", row.screw_torque),
-    percentage(row.change),
-    data("efficiency", row.efficiency),
-    validity(row),
-  ];
-  const rows = [
-    line(found.case, "this case"),
-    ...found.models.map((row) => line(row)),
-    ...found.laws.map((row) => line(row)),
-  ];
-  const caption = "all models as they are, then this case with one law at a time in place of its own";
-  const [torque, change, efficiency] = ["friction torque", "change", "efficiency"];
-  const headings = ["model or law", torque, change, efficiency, "valid here"];
-  /** @param {{ title: string, screw_torque: number | null, efficiency: number | null, drag_torque: number | null, change?: number | null, drag_change?: number | null, source?: string }} one */
-  const rule = (one) => [
-    one.title,
-    units.formatted("screw_torque", one.screw_torque),
-    percentage(one.change ?? null),
-    units.formatted("efficiency", one.efficiency),
-    units.formatted("screw_torque", one.drag_torque),
-    percentage(one.drag_change ?? null),
-    one.source ?? "",
-  ];
-  const { screw_torque, efficiency: eta } = found.case;
-  const own = { title: "this case", screw_torque, efficiency: eta, drag_torque: found.drag_torque };
-  const balls = found.of_balls ? [{ title: "without seals and other losses, as all below", ...found.of_balls }] : [];
-  const rules = [own, ...balls, ...found.rules].map(rule);
-  const columns = ["rule", torque, change, efficiency, "drag torque", change, "source"];
-  byId("models").replaceChildren(
-    scrolling("models and laws", table(caption, headings, rows)),
-    scrolling("rules of one line", table("rules of one line that people use in place of a model", columns, rules)),
-  );
 }

@@ -2,8 +2,7 @@
 
 import { element } from "./dom.js";
 
-/** @typedef {import("./dom.js").Attributes} Attributes */
-/** @typedef {import("./dom.js").Child} Child */
+/** @import { Attributes, Child } from "./dom.js" */
 
 /**
  * A button with words.

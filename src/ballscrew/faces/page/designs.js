@@ -7,7 +7,7 @@ import { store } from "./store.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** Sections that belong to the use of a screw, not to the screw. */
-const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"];
+export const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"];
 /** Fields of an oil that the others follow from. */
 const OF_OIL = [
   "viscosity",
@@ -192,20 +192,23 @@ export function reset() {
  * Put another screw in the place of that of the current design.
  *
  * @param {string} start
+ * @param {Record<string, string>} units in which fields go on to be shown
  */
-export function startFrom(start) {
+export function startFrom(start, units) {
   const changes = { ...changesOfUse(current()), ...preloadFor(start) };
-  replaceBy(states.design(start, changes, states.ownOfUse(current())));
+  replaceBy(states.design(start, changes, states.ownOfUse(current())), units);
 }
 
 /**
  * Put a design in the place of the current one.
  *
  * @param {states.Design} design
+ * @param {Record<string, string>} [units]
  */
-function replaceBy(design) {
+function replaceBy(design, units) {
   store.change((state) => {
     state.designs[state.show] = design;
+    Object.assign(state.fields, units);
   }, STEP);
 }
 
@@ -324,14 +327,15 @@ export function ownScrewOf({ name, file, start, tables }) {
 }
 
 /**
- * The start whose screw a design has as it is: an example, where it is no row of the catalogue.
+ * The start whose screw and axis a design has as they are: an example, where it is no row of the catalogue.
  *
  * @param {states.FrozenDesign} design
  */
 export function exampleOf(design) {
   const { start, changes, tables } = design;
   const changed = [...Object.keys(changes), ...Object.keys(tables ?? {})].map((path) => path.split(".")[0]);
-  const isOwn = design.file !== undefined || changed.some((section) => states.OF_SCREW.includes(section));
+  const ofExample = [...states.OF_SCREW, ...Object.keys(schema.OF_CARDS)];
+  const isOwn = design.file !== undefined || changed.some((section) => ofExample.includes(section));
   return isRow(start) || isOwn ? undefined : start;
 }
 

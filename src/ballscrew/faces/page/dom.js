@@ -4,6 +4,9 @@
 /** @typedef {string | number | Node | null | undefined} Child */
 /** @typedef {string | number | boolean | null | undefined} Cell */
 
+/** Matches a window that is as narrow as a phone. */
+export const NARROW = matchMedia("(max-width: 46rem)");
+
 /** Elements with listeners, which stand as they were made. @type {WeakSet<Node>} */
 const listening = new WeakSet();
 
@@ -56,22 +59,26 @@ export function within(holder, selector) {
   return found;
 }
 
+/** The field of a path inside another element. @param {Element} holder @param {string} path @returns {HTMLElement | null} */
+export function fieldIn(holder, path) {
+  return holder.querySelector(`[data-path="${CSS.escape(path)}"]`);
+}
+
 /**
  * A table with a caption, headings above and, where wanted, beside.
  *
  * @param {string} caption
- * @param {string[]} headings
+ * @param {Child[]} headings
  * @param {Child[][]} rows
- * @param {{ beside?: boolean }} options
  */
-export function table(caption, headings, rows, { beside = true } = {}) {
+export function table(caption, headings, rows) {
   const head = headings.map((text) => (text ? element("th", { scope: "col" }, text) : element("td")));
   const body = rows.map((cells) =>
     element(
       "tr",
       {},
       ...cells.map((cell, place) =>
-        place === 0 && beside && cell !== "" ? element("th", { scope: "row" }, cell) : element("td", {}, cell),
+        place === 0 && cell !== "" ? element("th", { scope: "row" }, cell) : element("td", {}, cell),
       ),
     ),
   );
@@ -98,7 +105,7 @@ export function scrolling(label, content) {
  * A table in a frame that scrolls on its own, which is labelled by its caption.
  *
  * @param {string} caption
- * @param {string[]} headings
+ * @param {Child[]} headings
  * @param {Child[][]} rows
  */
 export function scrollingTable(caption, headings, rows) {

@@ -45,7 +45,7 @@ function say(words) {
  * @param {Map<string, Making>} making
  */
 async function saveAs(kind, making) {
-  const { whole, answer, alongSpeed } = answers.current();
+  const { whole, answer, curves } = answers.current();
   if (!whole || !answer || byId("results").classList.contains("stale")) {
     say(
       connection.isSilent
@@ -61,7 +61,7 @@ async function saveAs(kind, making) {
     } else if (kind === "JSON") {
       const { words, display, ...document } = await (await send("run", whole)).json();
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
-    } else if (alongSpeed) saveTorqueCsv(alongSpeed);
+    } else if (curves.over_speed) saveTorqueCsv(curves.over_speed);
     say(`${kind} saved`);
   } catch (error) {
     say(linesOf(error).join("; "));

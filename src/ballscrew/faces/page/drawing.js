@@ -1,9 +1,7 @@
 // The drawing of the ball: beside each other where there is room, one below the other on a phone.
 
-import { byId } from "./dom.js";
+import { byId, NARROW } from "./dom.js";
 
-/** Matches a window that is too narrow for both halves beside each other: another one needs the drawing anew. */
-export const NARROW = matchMedia("(max-width: 46rem)");
 /** Room before the title of the second half. */
 const MARGIN = 6;
 

@@ -19,7 +19,7 @@ import { vocabulary } from "./vocabulary.js";
  * @typedef {object} Source
  * @property {State} state
  * @property {(path: string) => any} given
- * @property {(path: string) => Record<string, any> | undefined} lawOf
+ * @property {(path: string) => Record<string, any> | undefined} [lawOf]
  * @property {(change: Change) => void} onChange
  */
 
@@ -102,6 +102,12 @@ export function choiceField(path, node, value, onChange, present) {
     ...options.map((name) => element("option", { value: name, selected: String(value) === name }, name)),
   );
   return frame(path, node, value !== undefined, select);
+}
+
+/** The field of a node without laws: a choice or a number. @param {string} path @param {SchemaNode} node @param {Source} source */
+export function fieldFor(path, node, source) {
+  const isChoice = node.enum || node.type === "boolean";
+  return isChoice ? choiceField(path, node, source.given(path), source.onChange) : numberField(path, node, source);
 }
 
 /**

@@ -6,10 +6,9 @@ import { nameAreas, nameCurves } from "./figure_names.js";
 import { widthOf } from "./pen.js";
 import { extent, Scale, stepOf, tickWords } from "./scale.js";
 
-/** @typedef {import("./pen.js").Pen} Pen */
-/** @typedef {import("./pen.js").Box} Box */
+/** @import { Palette } from "./palette.js" */
+/** @import { Box, Pen } from "./pen.js" */
 /** @typedef {(number | null)[]} Values */
-/** @typedef {import("./palette.js").Palette} Palette */
 /**
  * An axis with its title: from where to where it goes if not as far as what is drawn, whether zero is on it, and names in
  * place of numbers.

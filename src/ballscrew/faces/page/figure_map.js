@@ -4,13 +4,9 @@ import { colourAt } from "./palette.js";
 import { corners, SMALL } from "./pen.js";
 import { Scale, tickWords } from "./scale.js";
 
-/** @typedef {import("./pen.js").Pen} Pen */
-/** @typedef {import("./pen.js").Path} Path */
-/** @typedef {import("./palette.js").Palette} Palette */
-/** @typedef {import("./figure.js").Frame} Frame */
-/** @typedef {import("./figure.js").Values} Values */
-/** @typedef {import("./figure.js").Grid} Grid */
-/** @typedef {import("./figure.js").Shades} Shades */
+/** @import { Frame, Grid, Shades, Values } from "./figure.js" */
+/** @import { Palette } from "./palette.js" */
+/** @import { Path, Pen } from "./pen.js" */
 
 /** Steps of colour, pieces between two values of an axis, lines at most, pixels between numbers. */
 const [STEPS, FINE, LINES, TICK] = [48, 6, 11, 42];

@@ -4,22 +4,10 @@ import { drawGrid } from "./figure_map.js";
 import { colourAt, shade } from "./palette.js";
 import { corners, ROOM, SMALL, widthOf } from "./pen.js";
 
-/** @typedef {import("./pen.js").Pen} Pen */
-/** @typedef {import("./pen.js").Path} Path */
-/** @typedef {import("./pen.js").Box} Box */
-/** @typedef {import("./scale.js").Scale} Scale */
-/** @typedef {import("./palette.js").Palette} Palette */
-/** @typedef {import("./figure.js").Frame} Frame */
-/** @typedef {import("./figure.js").Values} Values */
-/** @typedef {import("./figure.js").Mark} Mark */
-/** @typedef {import("./figure.js").Curve} Curve */
-/** @typedef {import("./figure.js").Band} Band */
-/** @typedef {import("./figure.js").Level} Level */
-/** @typedef {import("./figure.js").Zone} Zone */
-/** @typedef {import("./figure.js").Outside} Outside */
-/** @typedef {import("./figure.js").Point} Point */
-/** @typedef {import("./figure.js").Bar} Bar */
-/** @typedef {import("./figure.js").Whisker} Whisker */
+/** @import { Band, Bar, Curve, Frame, Level, Mark, Outside, Point, Values, Whisker, Zone } from "./figure.js" */
+/** @import { Palette } from "./palette.js" */
+/** @import { Box, Path, Pen } from "./pen.js" */
+/** @import { Scale } from "./scale.js" */
 
 /** @type {Record<string, number[]>} */
 const DASHES = { dashed: [7, 4], dotted: [2, 3], dashdot: [8, 3, 2, 3] };

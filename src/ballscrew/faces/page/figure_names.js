@@ -4,15 +4,9 @@ import { DOTS, pathOf } from "./figure_marks.js";
 import { isDark, shade } from "./palette.js";
 import { ROOM, SMALL, widthOf } from "./pen.js";
 
-/** @typedef {import("./pen.js").Pen} Pen */
-/** @typedef {import("./pen.js").Box} Box */
-/** @typedef {import("./palette.js").Palette} Palette */
-/** @typedef {import("./figure.js").Figure} Figure */
-/** @typedef {import("./figure.js").Frame} Frame */
-/** @typedef {import("./figure.js").Mark} Mark */
-/** @typedef {import("./figure.js").Curve} Curve */
-/** @typedef {import("./figure.js").Band} Band */
-/** @typedef {import("./figure.js").Point} Point */
+/** @import { Band, Curve, Figure, Frame, Mark, Point } from "./figure.js" */
+/** @import { Palette } from "./palette.js" */
+/** @import { Box, Pen } from "./pen.js" */
 
 /** Names at curves at most. */
 const FEW = 7;

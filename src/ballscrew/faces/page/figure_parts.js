@@ -1,9 +1,6 @@
 // Marks that many figures have: the operating point, and where the model does not hold.
 
-/** @typedef {import("./figure.js").Curve} Curve */
-/** @typedef {import("./figure.js").Outside} Outside */
-/** @typedef {import("./figure.js").Point} Point */
-/** @typedef {import("./figure.js").Values} Values */
+/** @import { Curve, Outside, Point, Values } from "./figure.js" */
 
 export const OUTSIDE = "outside the model's validity";
 

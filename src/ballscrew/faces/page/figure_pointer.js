@@ -2,10 +2,8 @@
 
 import { readingAt } from "./figure_words.js";
 
-/** @typedef {import("./figure.js").Figure} Figure */
-/** @typedef {import("./figure.js").Frame} Frame */
-/** @typedef {import("./figure.js").Ranges} Ranges */
-/** @typedef {import("./figure_words.js").Reading} Reading */
+/** @import { Figure, Frame, Ranges } from "./figure.js" */
+/** @import { Reading } from "./figure_words.js" */
 /**
  * The chart that a pointer is over: what is drawn there, and what it does.
  *

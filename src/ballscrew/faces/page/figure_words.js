@@ -4,14 +4,7 @@ import { digits } from "./digits.js";
 import { element } from "./dom.js";
 import { DOTS } from "./figure_marks.js";
 
-/** @typedef {import("./figure.js").Figure} Figure */
-/** @typedef {import("./figure.js").Frame} Frame */
-/** @typedef {import("./figure.js").Mark} Mark */
-/** @typedef {import("./figure.js").Curve} Curve */
-/** @typedef {import("./figure.js").Band} Band */
-/** @typedef {import("./figure.js").Bar} Bar */
-/** @typedef {import("./figure.js").Grid} Grid */
-/** @typedef {import("./figure.js").Values} Values */
+/** @import { Band, Bar, Curve, Figure, Frame, Grid, Mark, Values } from "./figure.js" */
 /** Headings and rows. @typedef {[string[], import("./dom.js").Cell[][]]} Numbers */
 /** What is read below a pointer: where, and a line for each mark. @typedef {{ across: number | undefined, title: string, lines: { words: string, colour: string }[] }} Reading */
 

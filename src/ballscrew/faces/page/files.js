@@ -1,10 +1,14 @@
 // Files at the door of the page: opened or dropped, and the words on what stays in this browser.
 
+import { namedButton } from "./controls.js";
 import { byId, element, showNotice } from "./dom.js";
-import { keeping } from "./keeping.js";
+import { keeping, WHEN } from "./keeping.js";
 import { NOT_KEPT } from "./names.js";
 import { open as opened } from "./opening.js";
+import * as views from "./views.js";
 
+/** Names of files that are logs where one is asked for. */
+const LOG = /\.(?:csv|txt|tsv|xlsx?|ods|mat)$/i;
 /** Deleting everything is asked for twice within this time, in milliseconds. */
 const SURE_WITHIN = 6000;
 
@@ -20,9 +24,27 @@ export function setUp() {
   addEventListener("drop", (event) => {
     if (event.defaultPrevented) return;
     event.preventDefault();
-    open([...(event.dataTransfer?.files ?? [])]);
+    const all = [...(event.dataTransfer?.files ?? [])];
+    const logs = all.filter(({ name }) => LOG.test(name));
+    open(logs.length && fit(logs[0]) ? all.filter((file) => !logs.includes(file)) : all);
   });
   setUpKeeping();
+}
+
+/**
+ * Give a log to the fit, where that is seen; false where it is not. It takes the file as one that was chosen there.
+ *
+ * @param {File} log
+ */
+function fit(log) {
+  const input = document.getElementById("calibrate-log");
+  if (views.current() !== "measure" || !(input instanceof HTMLInputElement)) return false;
+  const given = new DataTransfer();
+  given.items.add(log);
+  input.files = given.files;
+  input.dispatchEvent(new Event("change"));
+  input.closest("section")?.scrollIntoView();
+  return true;
 }
 
 /** @param {File[]} files */
@@ -65,8 +87,6 @@ function setUpKeeping() {
  * @param {import("./keeping.js").Work} work
  */
 export function sayRestored({ saved }) {
-  const when = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" }).format(saved);
-  const afresh = element("button", { type: "button", id: "afresh" }, "Start afresh");
-  afresh.addEventListener("click", () => keeping.show("#A=paper"));
-  showNotice(`Your work of ${when} is shown, as this browser kept it. `, afresh);
+  const afresh = namedButton("afresh", "Start afresh", () => keeping.show("#A=paper"));
+  showNotice(`Your work of ${WHEN.format(saved)} is shown, as this browser kept it. `, afresh);
 }

@@ -1,19 +1,19 @@
 // The form, made from the JSON Schema of the case file. It shows the texts of the state and reports what is typed.
 
 import { current, isOfFile, ownScrewOf, setAside, setTables, tablesOf } from "./designs.js";
-import { byId, element, within } from "./dom.js";
-import { inWords, labelOf } from "./messages.js";
-import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
+import { box, button } from "./controls.js";
+import { byId, element, fieldIn, NARROW, within } from "./dom.js";
+import { inWords, labelOf, markFaults } from "./messages.js";
+import { choiceField, fieldFor, labelIn, numberField, showEffective } from "./fields.js";
 import * as help from "./help.js";
 import { slidersOf } from "./operating_point.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
 import { valueAt } from "./state.js";
 import { vocabulary } from "./vocabulary.js";
 
-/** @typedef {import("./schema.js").SchemaNode} SchemaNode */
-/** @typedef {import("./state.js").FrozenState} State */
-/** @typedef {import("./fields.js").Change} Change */
-/** @typedef {import("./fields.js").Source} Source */
+/** @import { Source } from "./fields.js" */
+/** @import { SchemaNode } from "./schema.js" */
+/** @import { FrozenState as State } from "./state.js" */
 
 /** The kind of a fault of what no case has. */
 const UNKNOWN = "unknown";
@@ -32,7 +32,6 @@ const ESSENTIAL = {
 };
 const OPEN = ["operation", "screw", "nut", "lubricant"];
 const OPEN_ON_PHONE = ["operation"];
-const NARROW = "(max-width: 46rem)";
 
 /**
  * Build the whole form.
@@ -45,7 +44,7 @@ export function build(source) {
   const sections = [...form.querySelectorAll("details")];
   const open = new Set(sections.filter((one) => one.open).map((one) => one.dataset.section));
   const isFirst = !form.children.length;
-  const openFirst = matchMedia(NARROW).matches ? OPEN_ON_PHONE : OPEN;
+  const openFirst = NARROW.matches ? OPEN_ON_PHONE : OPEN;
   const parts = Object.entries(SECTIONS).map(([name, title]) =>
     section(
       name,
@@ -108,9 +107,8 @@ function section(name, title, attributes, ...children) {
 
 /** The box that gives the design elastic bodies of the usual sizes, or takes its bodies out. */
 function elasticBox() {
-  const box = element("input", { type: "checkbox", id: "elastic" });
-  box.addEventListener("change", () => setTables({ bodies: box.checked ? {} : null }));
-  return element("p", { class: "small" }, element("label", {}, box, " ", "Screw and nut are elastic"));
+  const turn = (/** @type {boolean} */ isElastic) => setTables({ bodies: isElastic ? {} : null });
+  return element("p", { class: "small" }, box("Screw and nut are elastic", false, turn, { id: "elastic" }));
 }
 
 function showElastic() {
@@ -132,14 +130,9 @@ export function mark(path, differs) {
   within(field, ".differs").textContent = differs ? " changed" : "";
 }
 
-/**
- * @param {string} path
- * @returns {HTMLElement | undefined}
- */
+/** @param {string} path */
 function fieldAt(path) {
-  /** @type {NodeListOf<HTMLElement>} */
-  const fields = byId("form").querySelectorAll("[data-path]");
-  return [...fields].find((one) => one.dataset.path === path);
+  return fieldIn(byId("form"), path);
 }
 
 /** @param {Source} source */
@@ -167,23 +160,10 @@ function startField({ onChange }) {
       element("optgroup", { label }, ...members.map((row) => option(row.name, rowLabel(row)))),
     ),
   );
-  const reset = element(
-    "button",
-    {
-      type: "button",
-      id: "reset",
-      onclick: () => onChange({ reset: true }),
-      title: "Undo all changes of this design",
-    },
-    "Reset",
-  );
-  return element(
-    "div",
-    { class: "field start given" },
-    element("label", { for: "start" }, "Start from"),
-    select,
-    reset,
-  );
+  const title = "Undo all changes of this design";
+  const reset = button("Reset", () => onChange({ reset: true }), { id: "reset", title });
+  const label = element("label", { for: "start" }, "Start from");
+  return element("div", { class: "field start given" }, label, select, reset);
 }
 
 /**
@@ -226,8 +206,7 @@ function fields(path, unresolved, source) {
     return [section(path, labelIn(path), { class: "inner" }, ...children)];
   }
   if (isLaw(node)) return lawFields(path, node, source);
-  if (node.enum || node.type === "boolean") return [choiceField(path, node, source.given(path), source.onChange)];
-  const field = numberField(path, node, source);
+  const field = fieldFor(path, node, source);
   return [field, ...slidersOf(path, field, labelIn(path), node)];
 }
 
@@ -241,7 +220,7 @@ function fields(path, unresolved, source) {
 function lawFields(path, node, source) {
   const options = node.anyOf ?? [];
   const names = options.find((one) => one.enum)?.enum ?? [];
-  const present = source.lawOf(path);
+  const present = source.lawOf?.(path);
   const value = source.given(path);
   const named = typeof value === "object" && value !== null ? value.law : value;
   const chosen = named ?? present?.law;
@@ -279,28 +258,12 @@ export function showValues(values) {
  * @returns {import("./results.js").Refusal} what stands above the answer: links to the fields, and faults of no field
  */
 export function showFaults(faults) {
-  for (const field of byId("form").querySelectorAll(".field.wrong")) {
-    field.classList.remove("wrong");
-    within(field, ".fault").textContent = "";
-    field.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
-  }
-  /** @type {Map<string, HTMLElement>} */
-  const wrong = new Map();
-  /** @type {(string | Node)[]} */
-  const others = [];
-  for (const fault of faults) {
-    const path = pathOf(fault.where);
-    const field = fieldAt(path);
-    if (field && !wrong.has(path)) {
-      wrong.set(path, field);
-      markWrong(field, inWords(fault));
-    } else if (!field) others.push(ofNoField(fault));
-  }
-  const [first] = [...byId("form").querySelectorAll(".field.wrong")];
+  const others = markFaults(byId("form"), faults, ({ where }) => fieldAt(pathOf(where))).map(ofNoField);
+  const wrong = [.../** @type {NodeListOf<HTMLElement>} */ (byId("form").querySelectorAll(".field.wrong"))];
+  wrong.forEach(open);
+  const [first] = wrong;
   if (first && !first.contains(document.activeElement)) first.scrollIntoView({ block: "nearest" });
-  const links = [...wrong].map(([path, field]) =>
-    element("button", { type: "button", onclick: () => jumpTo(field) }, labelOf(path)),
-  );
+  const links = wrong.map((field) => button(labelOf(field.dataset.path ?? ""), () => jumpTo(field)));
   const intro = `${links.length === 1 ? "Not computed. Correct this field:" : "Not computed. Correct these fields:"} `;
   const line = links.length ? [element("span", {}, intro, ...links)] : [];
   const said = faults.map((fault) => `${labelOf(fault.where)}: ${inWords(fault)}`).join(" ");
@@ -316,9 +279,8 @@ function ofNoField(fault) {
   const line = `${labelOf(fault.where)}: ${inWords(fault)}`;
   if (fault.id !== UNKNOWN || !isOfFile(fault.where)) return line;
   const label = `Keep ${labelOf(fault.where)} aside: it is not computed with`;
-  const action = () => setAside(fault.where);
-  const button = element("button", { type: "button", "aria-label": label, onclick: action }, "Keep it aside");
-  return element("span", {}, `${line} `, button);
+  const keep = button("Keep it aside", () => setAside(fault.where), { "aria-label": label });
+  return element("span", {}, `${line} `, keep);
 }
 
 /**
@@ -342,17 +304,6 @@ function open(field) {
     holder.open = true;
     holder = holder.parentElement?.closest("details") ?? null;
   }
-}
-
-/**
- * @param {HTMLElement} field
- * @param {string} words
- */
-function markWrong(field, words) {
-  field.classList.add("wrong");
-  within(field, ".fault").textContent = words;
-  within(field, "input, select").setAttribute("aria-invalid", "true");
-  open(field);
 }
 
 /** @param {HTMLElement} field */

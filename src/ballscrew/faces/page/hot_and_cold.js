@@ -1,12 +1,12 @@
 // The friction torque over the speed, cold and hot: curves at the temperatures of the table, drawn once they are seen.
 
+import { plain } from "./case_values.js";
 import * as parts from "./chart_parts.js";
-import { hide, showFailure } from "./chart_place.js";
+import { draw, hide, showFailure } from "./chart_place.js";
 import { byId } from "./dom.js";
 import { linesByValidity, pointAt } from "./figure_parts.js";
 import { yesOrNo } from "./figure_words.js";
 import { localEngine, pointsOf } from "./local_engine.js";
-import { draw } from "./plot.js";
 import { Latest, linesOf, sendJson } from "./server.js";
 import * as units from "./units.js";
 
@@ -42,7 +42,7 @@ function computedHere({ body, answer, temperatures, speeds }) {
     if (!one) return undefined;
     const found = localEngine.at(one, points);
     curves.push({
-      torque: Array.from(found.screw_torque, (value) => (Number.isFinite(value) ? value : null)),
+      torque: Array.from(found.screw_torque, plain),
       valid: Array.from(found.valid, Boolean),
     });
   }
@@ -133,8 +133,8 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
   const names = temperatures.map((one) => units.formattedIn(one, "degC", "K"));
   const shown = parts.converted("screw_speed", { values: speeds });
   const torques = curves.map(({ torque }) => parts.converted("screw_torque", { values: torque }));
-  const x = parts.titled("screw_speed", "speed of the screw");
-  const y = parts.titled("screw_torque", "friction torque");
+  const x = units.heading("screw_speed", "speed of the screw");
+  const y = units.heading("screw_torque", "friction torque");
   const now = answer.results.screw_torque;
   /** The coldest, the hottest, and between them that of the case. @param {number} place */
   const colour = (place) => (place === 0 ? "accent" : place === temperatures.length - 1 ? "second" : "ink");
@@ -153,7 +153,7 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
       ],
     },
     numbers: () => [
-      [x, ...names.map((name) => parts.titled("screw_torque", name)), ...names.map((name) => `valid at ${name}`)],
+      [x, ...names.map((name) => units.heading("screw_torque", name)), ...names.map((name) => `valid at ${name}`)],
       shown.map((at, i) => [
         at,
         ...torques.map((values) => values[i]),

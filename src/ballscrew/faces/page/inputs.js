@@ -4,6 +4,7 @@ import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
 import { byId, element, keepFocus } from "./dom.js";
 import * as form from "./form.js";
+import { fieldOf, fieldsOf } from "./schema.js";
 import { LETTERS, valueAt } from "./state.js";
 import { store } from "./store.js";
 import * as units from "./units.js";
@@ -17,10 +18,33 @@ import { vocabulary } from "./vocabulary.js";
  * @param {import("./fields.js").Change} change
  */
 export function change({ path = "", text = "", unit, start, reset, rebuild }) {
-  if (start !== undefined) designs.startFrom(start);
+  if (start !== undefined) startFrom(start);
   else if (reset) designs.reset();
   else if (unit !== undefined) designs.chooseUnit(path, unit);
   else changeText(path, text, rebuild);
+}
+
+/**
+ * Put another screw in the place of that of the current design. Load, speed and oil go on to be shown in the units that are
+ * seen: what is typed next is in the same unit as before.
+ *
+ * @param {string} start
+ */
+export async function startFrom(start) {
+  byId("results").setAttribute("aria-busy", "true");
+  const before = designs.tablesOf(designs.current());
+  const after = await designs.startOf(start).catch(() => ({})); // why it is not there is said where it is shown
+  const paths = designs.OF_USE.flatMap((section) => Object.keys(fieldsOf(section)).map((name) => `${section}.${name}`));
+  const kept = paths.flatMap((path) => {
+    const [seen, next] = [before, after].map((tables) => unitAt(tables, path));
+    return seen && next && seen !== next && units.currentSystem() === "metric" ? [[path, seen]] : [];
+  });
+  designs.startFrom(start, { ...Object.fromEntries(kept), ...store.state.fields });
+}
+
+/** The unit of a number of a case, as it is written. @param {Tables} tables @param {string} path */
+function unitAt(tables, path) {
+  return units.parse(valueAt(tables, path), fieldOf(path)?.["x-si-unit"])?.unit;
 }
 
 /**
@@ -65,7 +89,6 @@ export async function show(answer) {
     form.build({ state, given, lawOf, onChange: change });
     byId("form").dataset.laws = lawsOf(answer);
     form.showValues(effective(answer));
-    showExample();
     showTabs();
   };
   keepFocus(rebuild, () => byId(`design-${LETTERS[store.state.show]}`));
@@ -76,11 +99,15 @@ export function mark(path) {
   const { changes } = designs.current();
   form.mark(path, path in changes);
   byId("reset").hidden = !Object.keys(changes).length;
-  showExample();
 }
 
-/** Say on the first view that its numbers are of an example, as long as no other screw was chosen. */
-function showExample() {
+/**
+ * Say on the first view that its numbers are of an example, as long as no other screw was chosen, and that they are of the
+ * operating point alone where a cycle has loads of its own.
+ */
+export function showOrigin() {
+  const { axis, motion } = designs.tablesOf(designs.current());
+  byId("of-point").hidden = !(axis && motion);
   const example = designs.exampleOf(designs.current());
   const place = byId("example");
   place.hidden = example === undefined;

@@ -7,6 +7,9 @@ const DELAY = 300;
 /** Keys of an address that say how the work is looked at. */
 const VIEWS = ["band", "show", "unit", "units", "view"];
 
+/** When work was saved, in words. */
+export const WHEN = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" });
+
 /** What is kept: the state as the fragment of an address, words for a list, and when. */
 /** @typedef {{ id: string, fragment: string, title: string, saved: number }} Work */
 /** Why nothing is kept. @typedef {"" | "forbidden" | "full"} Trouble */

@@ -7,8 +7,7 @@ import { Engine } from "./engine.js";
 import { sendJson } from "./server.js";
 
 /** @typedef {{ case: Record<string, unknown> }} Body */
-/** @typedef {import("./engine.js").Values} Values */
-/** @typedef {import("./engine.js").Found} Found */
+/** @import { Found, Values } from "./engine.js" */
 /** @typedef {{ axial_load: number, screw_speed: number }} Point */
 /** Values of the axes of curves, by the curve and the axis. @typedef {Record<string, Record<string, number[]>>} Axes */
 /**
@@ -213,7 +212,8 @@ export function pointOf({ axial_load: load, screw_speed: speed }) {
 /**
  * The points of a grid of axes, the last one the fastest.
  *
- * @param {Point} point what no axis varies
+ * @template {Record<string, number>} Of
+ * @param {Of} point what no axis varies
  * @param {Record<string, number[]>} axes
  */
 export function pointsOf(point, axes) {

@@ -3,6 +3,7 @@
 
 import { element } from "./dom.js";
 import { digest, forget, keptJob, runJob } from "./jobs.js";
+import { progress } from "./progress.js";
 import { ask, Problem, sendJson } from "./server.js";
 
 /** Work by its address. @type {Record<string, string>} */
@@ -21,13 +22,12 @@ const WORK = {
 const OUT_OF_TIME = "out_of_time";
 /** Milliseconds until the line is shown: of what was known already nothing is to be seen. */
 const PATIENCE = 300;
-const SECOND = 1000;
 /** Milliseconds within which a job has ended that needed none. */
 const SOON = 5000;
 
 /** Addresses whose requests took too long: the next ones are jobs at once. @type {Set<string>} */
 const slow = new Set();
-const list = element("div", { id: "long-work", role: "region", "aria-label": "Work that takes long", hidden: true });
+const list = element("div", { id: "long-work", role: "region", "aria-label": "Work that takes long" });
 document.body.append(list);
 
 /** Test whether the server ended a request for its time. @param {unknown} error */
@@ -88,11 +88,13 @@ export function askPatiently(address, body, signal) {
 async function asJob(address, body, place, signal) {
   const start = performance.now();
   const own = new AbortController();
-  const { line, told, end } = lineOf(address, () => own.abort());
+  const words = { what: WORK[address] ?? address, doing: "goes on in the background …" };
+  const { parts, told, end } = progress(() => own.abort(), words);
+  const line = element("p", { "data-address": address }, ...parts);
   const leave = () => own.abort();
   if (signal.aborted) leave();
   signal.addEventListener("abort", leave);
-  const patience = setTimeout(() => show(line), PATIENCE);
+  const patience = setTimeout(() => list.append(line), PATIENCE);
   try {
     const found = await (await runJob(address, body, { place, signal: own.signal, told })).json();
     forget(place); // its answer is here
@@ -106,50 +108,6 @@ async function asJob(address, body, place, signal) {
     signal.removeEventListener("abort", leave);
     clearTimeout(patience);
     end();
-    hide(line);
+    line.remove();
   }
-}
-
-/**
- * A line that says how far a job is, what takes its news, and what ends its clock.
- *
- * @param {string} address
- * @param {() => void} cancel
- */
-function lineOf(address, cancel) {
-  const what = WORK[address] ?? address;
-  const bar = element("progress", { "aria-label": `${what}: goes on in the background …` });
-  const words = element("span", {}, `${what}: goes on in the background …`);
-  const button = element("button", { type: "button", onclick: cancel }, "Cancel");
-  button.setAttribute("aria-label", `Cancel: ${what}`);
-  const line = element("p", { "data-address": address }, bar, words, button);
-  const start = performance.now();
-  let isWaiting = false;
-  const clock = setInterval(() => {
-    const seconds = Math.round((performance.now() - start) / SECOND);
-    words.textContent = isWaiting
-      ? `${what}: waits for other work … ${seconds} s`
-      : `${what}: goes on in the background … ${seconds} s`;
-  }, SECOND);
-  /** @param {JobDocument} job */
-  const told = ({ state, finished, total }) => {
-    isWaiting = state === "waiting";
-    if (finished < total) {
-      bar.max = total;
-      bar.value = finished;
-    } else bar.removeAttribute("value");
-  };
-  return { line, told, end: () => clearInterval(clock) };
-}
-
-/** @param {HTMLElement} line */
-function show(line) {
-  list.append(line);
-  list.hidden = false;
-}
-
-/** @param {HTMLElement} line */
-function hide(line) {
-  line.remove();
-  list.hidden = !list.childElementCount;
 }

@@ -6,7 +6,7 @@ import { answers } from "./answers.js";
 import * as bath from "./bath.js";
 import * as cards from "./cards.js";
 import * as designs from "./designs.js";
-import { byId, showNotice, within } from "./dom.js";
+import { byId, NARROW, showNotice, within } from "./dom.js";
 import * as downloads from "./downloads.js";
 import { keepOffline } from "./embedded.js";
 import * as files from "./files.js";
@@ -79,6 +79,7 @@ async function follow({ path, isStep = false, rebuild = false, of, isLook = fals
   try {
     if (rebuild) await inputs.show(answers.current().answer);
     else if (path && !of) inputs.mark(path);
+    inputs.showOrigin();
   } catch (error) {
     results.fail(results.refusal(linesOf(error)));
     return;
@@ -170,6 +171,7 @@ function addListeners() {
   });
   byId("bath").addEventListener("click", bath.turn);
   byId("share").addEventListener("click", copyLink);
+  byId("to-cycle").addEventListener("click", () => views.go("duty"));
   byId("models-button").addEventListener("click", () => answers.compareModels());
   for (const id of ["form", "results"]) {
     for (const type of ["focusin", "pointerdown"])
@@ -189,6 +191,11 @@ function addListeners() {
   screwSearch.setUp();
 }
 
+/** On a phone the case is folded: the answer of the view comes first. */
+function foldCase() {
+  /** @type {HTMLDetailsElement} */ (byId("case-column")).open = !NARROW.matches;
+}
+
 /** Say who computes, and lead to the API of a server. */
 function showWhoAnswers() {
   document.documentElement.classList.toggle("alone", Boolean(alone.answers));
@@ -199,6 +206,8 @@ function showWhoAnswers() {
 async function begin() {
   alone.answers = answersAlone();
   followScheme();
+  foldCase();
+  NARROW.addEventListener("change", foldCase);
   cards.begin(SET_UPS);
   const [words, document_, latest] = await Promise.all([get("vocabulary"), get("schema"), keeping.begin()]);
   fill(words);

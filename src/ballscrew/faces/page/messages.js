@@ -1,5 +1,6 @@
 // Faults and names of fields in words.
 
+import { within } from "./dom.js";
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
 
@@ -42,6 +43,30 @@ export function labelOf(path) {
 export function inWords({ where, problem, given, remedy }) {
   const own = FAULTS[`${where}: ${problem}`] ?? FAULTS[problem];
   return own || `${problem}${given ? ` (${given})` : ""}${remedy ? `: ${remedy}` : ""}`;
+}
+
+/**
+ * Mark the fields of a place that faults name, each with its first fault in words, and no others.
+ *
+ * @param {Element} holder
+ * @param {FaultLine[]} faults
+ * @param {(fault: FaultLine) => Element | null | undefined} fieldOf
+ * @returns {FaultLine[]} those of no field there
+ */
+export function markFaults(holder, faults, fieldOf) {
+  for (const field of holder.querySelectorAll(".wrong")) {
+    field.classList.remove("wrong");
+    within(field, ".fault").textContent = "";
+    field.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
+  }
+  return faults.filter((fault) => {
+    const field = fieldOf(fault);
+    if (!field || field.classList.contains("wrong")) return !field;
+    field.classList.add("wrong");
+    within(field, ".fault").textContent = inWords(fault);
+    field.querySelector("input, select")?.setAttribute("aria-invalid", "true");
+    return false;
+  });
 }
 
 /** Places of faults that are keys, such as ``own-nut.preload``, and those that are files. */

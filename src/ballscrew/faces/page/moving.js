@@ -1,12 +1,12 @@
 // What is shown while something moves: numbers and curves of the module in the browser, in the form of the answers that
 // the server sends when it rests.
 
+import { plain } from "./case_values.js";
 import { localEngine, pointOf, pointsOf } from "./local_engine.js";
 import { FLOODED, FULL_BATH } from "./starvation.js";
 
-/** @typedef {import("./local_engine.js").Values} Values */
-/** @typedef {import("./local_engine.js").Found} Found */
-/** @typedef {import("./local_engine.js").Point} Point */
+/** @import { Found, Values } from "./engine.js" */
+/** @import { Point } from "./local_engine.js" */
 /** Sweeps by the name of their curve. @typedef {Record<string, Sweep>} Sweeps */
 
 /** Results that are computed here, where the answer before has them; the others stay as they were. */
@@ -24,11 +24,6 @@ const RESULTS = [
   "minimum_film_parameter",
   "maximum_pressure",
 ];
-
-/** A number as an answer has it. @param {number} value */
-function plain(value) {
-  return Number.isFinite(value) ? value : null;
-}
 
 /**
  * An answer with the numbers of other inputs. Its sentences and checks are those of before.

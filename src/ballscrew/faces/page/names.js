@@ -19,7 +19,7 @@ export const RESULTS = {
 };
 
 /** Checks. @type {Record<string, string>} */
-export const CHECKS = {
+const CHECKS = {
   buckling: "buckling",
   contact_pressure: "contact pressure",
   critical_speed: "critical speed",
@@ -32,6 +32,11 @@ export const CHECKS = {
   shaft_stress: "stress in the shaft",
   static_safety: "static safety S₀",
 };
+
+/** A check in words. @param {{ name: string }} check */
+export function nameOfCheck({ name }) {
+  return CHECKS[name] ?? name.replaceAll("_", " ");
+}
 
 /** Columns of a log. @type {Record<string, string>} */
 export const COLUMNS = {

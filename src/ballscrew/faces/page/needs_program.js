@@ -1,6 +1,7 @@
 // What stands in a view that the modules in the browser do not answer: the command that does, and the case for it.
 
 import { tomlOf } from "./case_alone.js";
+import { button } from "./controls.js";
 import { currentCase } from "./designs.js";
 import { element } from "./dom.js";
 import { save } from "./saving.js";
@@ -52,9 +53,9 @@ export function setUp(holder) {
   const line = element(
     "p",
     { class: "row" },
-    element("button", { type: "button", onclick: saving }, "Save the case"),
+    button("Save the case", saving),
     " ",
-    element("button", { type: "button", onclick: copying }, "Copy the case"),
+    button("Copy the case", copying),
     " ",
     link,
     ", which ",

@@ -1,14 +1,12 @@
 // The side view of a screw and its nut, to scale, with the load of each ball in front as its colour.
 
 import { COLOURS, nutOf, rangeOf } from "./ball_places.js";
-import { byId, element, update } from "./dom.js";
-import { NARROW } from "./drawing.js";
+import { byId, element, NARROW, update } from "./dom.js";
 import { colourAt } from "./palette.js";
 import { arrow, line, polygon, shape } from "./shapes.js";
 import * as units from "./units.js";
 
-/** @typedef {import("./ball_places.js").Nut} Nut */
-/** @typedef {import("./ball_places.js").Ball} Ball */
+/** @import { Ball, Nut } from "./ball_places.js" */
 
 /** Width of the drawing, and its greatest height: of a screen, and of a phone. */
 const SIZES = { wide: { width: 860, height: 330 }, narrow: { width: 340, height: 260 } };

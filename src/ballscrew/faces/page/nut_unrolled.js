@@ -1,11 +1,8 @@
 // The nut unrolled: each ball at its angle about the screw and its place along it, with its load as its colour.
 
 import { COLOURS, nutOf, rangeOf } from "./ball_places.js";
-import { POSITION } from "./cards/quantities.js";
-import * as parts from "./chart_parts.js";
-import { hide } from "./chart_place.js";
+import { draw, hide } from "./chart_place.js";
 import { byId, element, scrolling, table, update } from "./dom.js";
-import { draw } from "./plot.js";
 import * as units from "./units.js";
 
 /** What is said of the loads. @type {Record<string, string>} */
@@ -17,11 +14,11 @@ const NUMBERS = {
   ratio: "greatest / least",
 };
 
-/** @typedef {import("./ball_places.js").Nut} Nut */
-/** @typedef {import("./ball_places.js").Ball} Ball */
-/** @typedef {import("./figure.js").Curve} Curve */
+/** @import { Ball, Nut } from "./ball_places.js" */
+/** @import { Curve } from "./figure.js" */
 
 const CHART = "nut-unrolled";
+const PLACE = { unit: "m", shown_in: "mm" };
 const TURN = 2 * Math.PI;
 /** Room beside the first and the last ball, in leads; the least and the greatest size of a dot, in pixels. */
 const ROOM = 0.5;
@@ -47,25 +44,25 @@ function angleOf({ angle }) {
 
 /**
  * @param {Nut} nut
- * @returns {import("./plot.js").Chart}
+ * @returns {import("./chart_place.js").Chart}
  */
 function chart(nut) {
   const x = "angle about the screw (°)";
-  const y = POSITION.titled("place along the screw");
-  const z = parts.titled("contact_load", "load of a ball");
+  const y = units.titled("place along the screw", PLACE);
+  const z = units.heading("contact_load", "load of a ball");
   const balls = nut.balls.filter((one) => !one.isSpacer);
   const spacers = nut.balls.filter((one) => one.isSpacer);
   const [least, greatest] = rangeOf(nut.balls);
   const length = Math.max(...nut.balls.map((one) => one.along)) + 2 * ROOM * nut.lead;
   const size = Math.min(DOT.greatest, Math.max(DOT.least, (DOT.height * nut.ball) / length));
-  const ends = [-ROOM * nut.lead, length - ROOM * nut.lead].map((along) => Number(POSITION.convert(along)));
+  const ends = [-ROOM * nut.lead, length - ROOM * nut.lead].map((along) => Number(units.converted(along, PLACE)));
   /** @param {number} load */
   const shown = (load) => units.inDisplayUnit("contact_load", load);
   /** @param {Ball[]} some @param {Pick<Curve, "name" | "style"> & Partial<Curve>} others @returns {Curve} */
   const dots = (some, others) => ({
     kind: "curve",
     x: some.map(angleOf),
-    y: POSITION.all(some.map((one) => one.along)),
+    y: some.map((one) => units.converted(one.along, PLACE)),
     colour: "ink",
     size,
     ...others,
@@ -111,15 +108,15 @@ function chart(nut) {
         "half",
         x,
         y,
-        parts.titled("contact_load", "flank that carries the load"),
-        parts.titled("contact_load", "other flank"),
+        units.heading("contact_load", "flank that carries the load"),
+        units.heading("contact_load", "other flank"),
         "kind of ball",
       ],
       nut.balls.map((one, place) => [
         place + 1,
         one.half + 1,
         angleOf(one),
-        POSITION.convert(one.along),
+        units.converted(one.along, PLACE),
         one.isSpacer ? null : shown(one.forward),
         one.isSpacer ? null : shown(one.backward),
         one.isSpacer ? "spacer ball" : words,
@@ -155,7 +152,7 @@ function helix({ balls, halves, lead, starts }) {
       }
     }
   }
-  return { x, y: POSITION.all(y) };
+  return { x, y: y.map((along) => units.converted(along, PLACE)) };
 }
 
 /** Least, greatest and mean load of the balls of each half, and how many times the least the greatest is. @param {Nut} nut */

@@ -9,7 +9,7 @@ import { LETTERS, OF_SCREW } from "./state.js";
 import { store } from "./store.js";
 
 /** Bytes of a file that the server takes, with its third more for the request. */
-const MOST_BYTES = 700_000;
+export const MOST_BYTES = 700_000;
 /** Names that a notice has at most. */
 const MOST_NAMES = 5;
 
@@ -23,14 +23,10 @@ function read(file) {
   return sendPatiently("open", { file });
 }
 
-/** True of a file that the server takes. @param {File} file */
-export function isSmall(file) {
-  return file.size <= MOST_BYTES;
-}
-
-/** That a file is too large. @param {File} file */
-export function tooLarge(file) {
-  return `${file.name} is too large: ${Math.round(MOST_BYTES / 1000)} kB at most. The command line takes it.`;
+/** That a file is too large for the server; empty where it is not. @param {File} file @param {number} [most] bytes */
+export function tooLarge(file, most = MOST_BYTES) {
+  if (file.size <= most) return "";
+  return `${file.name} is too large: ${Math.round(most / 1000)} kB at most. The command line takes it.`;
 }
 
 /** A file as a request has it. @param {File} file */
@@ -50,8 +46,9 @@ export async function sent(file) {
 export async function open(files) {
   const lines = [];
   for (const file of files) {
-    if (!isSmall(file)) {
-      lines.push(tooLarge(file));
+    const fault = tooLarge(file);
+    if (fault) {
+      lines.push(fault);
       continue;
     }
     try {

@@ -3,8 +3,7 @@
 import { operationOf } from "./chart_parts.js";
 import { wordsOf } from "./charts.js";
 import { opened } from "./controls.js";
-import { element, scrolling, table } from "./dom.js";
-import { NARROW } from "./drawing.js";
+import { element, NARROW, scrolling, table } from "./dom.js";
 import { shape } from "./shapes.js";
 import * as units from "./units.js";
 

@@ -2,8 +2,10 @@
 
 import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
+import { opened } from "./controls.js";
 import { byId, element, table, update, write } from "./dom.js";
 import { RESULTS } from "./names.js";
+import { asRead } from "./sentence.js";
 import * as units from "./units.js";
 
 /** Results of a contact in words. @type {Record<string, string>} */
@@ -49,6 +51,8 @@ const OF_CONTACT = /** @type {const} */ ([
   "pure_rolling_offset",
   "spin_parameter",
 ]);
+/** The verdict that compares the model with the rule of the maker of the screw. */
+const RULE_OF_MAKER = "verdict.rule_of_maker";
 const ANNOUNCE_AFTER = 700;
 
 /** @typedef {Record<string, any>} Numbers results by name */
@@ -145,28 +149,18 @@ function outsideBand(torque, band) {
     : "";
 }
 
-/** What screen readers are told of the answer. */
-class Announcer {
-  #words = "";
-  /** @type {ReturnType<typeof setTimeout> | undefined} */
-  #timer;
+/** What screen readers are told of the answer. @type {{ words: string, timer?: ReturnType<typeof setTimeout> }} */
+const told = { words: "" };
 
-  /**
-   * Announce a text once typing has come to rest.
-   *
-   * @param {string} words
-   */
-  announce(words) {
-    if (words === this.#words) return;
-    this.#words = words;
-    clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => {
-      byId("said").textContent = words;
-    }, ANNOUNCE_AFTER);
-  }
+/** Tell a text once typing has come to rest. @param {string} words */
+function announce(words) {
+  if (words === told.words) return;
+  told.words = words;
+  clearTimeout(told.timer);
+  told.timer = setTimeout(() => {
+    byId("said").textContent = words;
+  }, ANNOUNCE_AFTER);
 }
-
-const announcer = new Announcer();
 
 /**
  * Show everything of one answer but its charts.
@@ -191,13 +185,13 @@ export function show(answer, { band, checks }, isWanted = () => true) {
   write("summary", summary);
   write("in-short", inShort.trim()); // the numbers stand above it
   if (!byId("results").classList.contains("stale")) {
-    announcer.announce(summary);
+    announce(summary);
     const title = `${torque.text} · ballscrew`;
     if (document.title !== title) document.title = title;
   }
   if (wants("verdicts")) showVerdicts(answer);
   if (wants("numbers")) showResults(answer, known, band !== null);
-  if (wants("rules")) update(byId("rules"), ...words.rules.map((one) => element("p", { class: "small" }, one)));
+  if (wants("rules")) showRules(answer);
   if (wants("vendor-rows")) showVendorRows(answer);
   if (wants("ball-numbers")) showBall(answer);
   if (wants("contacts")) showContacts(answer, warnings.filter(isOfContact));
@@ -274,9 +268,11 @@ function showVendorRows({ vendor_rows: near }) {
 
 /** @param {Run} answer */
 function showVerdicts(answer) {
-  const { verdicts, warnings } = answer;
-  const lines = verdicts.map((record) =>
-    element("p", { class: record.severity === "info" ? "verdict" : "verdict careful" }, record.text),
+  const { verdicts, warnings, words } = answer;
+  // the rule of its maker stands among the rules
+  const shown = joined(verdicts.filter(({ id }) => id !== RULE_OF_MAKER || !words.rules.length));
+  const lines = shown.map(({ severity, text }) =>
+    element("p", { class: severity === "info" ? "verdict" : "verdict careful" }, asRead(text)),
   );
   const ofContacts = warnings.filter(isOfContact);
   if (ofContacts.length) {
@@ -297,10 +293,34 @@ function showVerdicts(answer) {
   update(byId("verdicts"), ...lines, ...others.map(warning));
 }
 
+/**
+ * Verdicts, of which those that begin alike, as at speed and at rest, are one: what follows is said of both.
+ *
+ * @param {VerdictRecord[]} verdicts
+ */
+function joined(verdicts) {
+  /** @type {Map<string, { severity: string, text: string }>} */
+  const found = new Map();
+  for (const { severity, text } of verdicts) {
+    const [begin, ...rest] = text.split("; ");
+    const before = found.get(begin);
+    const worst = before && before.severity !== "info" ? before.severity : severity;
+    found.set(begin, { severity: worst, text: before ? [before.text, ...rest].join("; ") : text });
+  }
+  return [...found.values()];
+}
+
+/** The rules of makers beside the model, and what is to know of that of its own maker. @param {Run} answer */
+function showRules({ words, verdicts }) {
+  const own = verdicts.filter(({ id }) => id === RULE_OF_MAKER).map(({ text }) => element("p", {}, asRead(text)));
+  const said = words.rules.map((one) => element("p", { class: "small" }, asRead(one)));
+  update(byId("rules"), ...said, said.length && own.length ? opened("The rule of its maker", ...own) : null);
+}
+
 /** @param {VerdictRecord} record */
 function warning(record) {
   const subject = element("strong", {}, `Beware, ${nameOf(record)}: `);
-  return element("p", { class: "warning" }, subject, element("span", {}, record.text));
+  return element("p", { class: "warning" }, subject, element("span", {}, asRead(record.text)));
 }
 
 /** @param {Run} answer */
@@ -411,7 +431,7 @@ export function fail({ lines, said }) {
   const standing = "The results below are those of the previous input.";
   const all = before ? [...lines, standing] : lines;
   byId("faults").replaceChildren(...all.map((line) => element("p", {}, line)));
-  announcer.announce(before ? `${said} ${standing}` : said);
+  announce(before ? `${said} ${standing}` : said);
 }
 
 /** True where the answer on the page is not that of its case. */

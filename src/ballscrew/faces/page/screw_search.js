@@ -1,9 +1,9 @@
 // The search over all screws of the catalogue, above the form: a size, a part of a name, or an order code.
 
-import { namedButton } from "./controls.js";
-import * as designs from "./designs.js";
+import { button, namedButton } from "./controls.js";
 import { byId, element } from "./dom.js";
 import { rowLabel } from "./form.js";
+import { startFrom } from "./inputs.js";
 import { screwsFor } from "./part_search.js";
 import * as views from "./views.js";
 import { vocabulary } from "./vocabulary.js";
@@ -38,7 +38,7 @@ export function setUp() {
 
   /** @param {string} name */
   function take(name) {
-    designs.startFrom(name);
+    startFrom(name);
     input.value = "";
     show();
     input.focus(); // the button is gone
@@ -50,7 +50,7 @@ export function setUp() {
     if (!row) return null;
     const choose = row.refusal
       ? element("span", {}, `${rowLabel(row)}: ${row.refusal}`)
-      : element("button", { type: "button", "data-row": name, onclick: () => take(name) }, rowLabel(row));
+      : button(rowLabel(row), () => take(name), { "data-row": name });
     return element("li", {}, choose, " ", element("span", { class: "small" }, row.source));
   }
 

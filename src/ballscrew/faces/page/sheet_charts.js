@@ -1,14 +1,13 @@
 // The charts of sheets: curves with bands and lines, bars of parts, and maps, as figures in the units of the page.
 
 import { LOW_AND_HIGH, VALUE } from "./figure_words.js";
-import * as plot from "./plot.js";
+import * as places from "./chart_place.js";
 import { extent } from "./scale.js";
 import { converted, digits, symbolOf, titled } from "./units.js";
 
-/** @typedef {import("./units.js").Quantity} Quantity */
-/** @typedef {import("./sheet.js").Block} Block */
-/** @typedef {import("./figure.js").Figure} Figure */
-/** @typedef {import("./figure.js").Mark} Drawn */
+/** @import { Mark as Drawn } from "./figure.js" */
+/** @import { Block } from "./sheet.js" */
+/** @import { Quantity } from "./units.js" */
 /** @typedef {(number | null)[]} Values */
 /** An axis of a chart. @typedef {{ name: string, quantity: Quantity, log: boolean, least: number | null }} Axis */
 /** A curve. @typedef {{ name: string, x: Values, y: Values, colour: string, style: string, second: boolean, labels: string[] }} Curve */
@@ -34,7 +33,7 @@ export function draw(id, block) {
   const height = Math.max(HEIGHT, FRAME + ROW * (chart.figure.y.names?.length ?? 0));
   document.getElementById(id)?.style.setProperty("--plot-height", `${height}px`);
   const name = slug(block.title).replaceAll("-", "_");
-  plot.draw(id, { name, caption: `${block.title}: numbers`, ...chart });
+  places.draw(id, { name, caption: `${block.title}: numbers`, ...chart });
 }
 
 /** The name of a chart in addresses: letters, digits and hyphens. @param {string} words */

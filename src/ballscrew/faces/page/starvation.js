@@ -1,7 +1,6 @@
 // A screw that is starved of oil, and the same one in a full bath: what tells of it, and how it is drawn.
 
-/** @typedef {import("./figure.js").Curve} Curve */
-/** @typedef {import("./figure.js").Values} Values */
+/** @import { Curve, Values } from "./figure.js" */
 
 /** The torque in a full bath among the outputs, and the input of a module with which it has that bath. */
 export const FLOODED = "flooded_torque";

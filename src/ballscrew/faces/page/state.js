@@ -160,7 +160,7 @@ export function toFragment(state) {
     }
     for (const [path, text] of Object.entries(one.changes)) parameters.set(`${LETTERS[place]}.${path}`, text);
   });
-  if (JSON.stringify(state.need) !== JSON.stringify(noNeed())) parameters.set("need", JSON.stringify(state.need));
+  if (!isSame(state.need, noNeed())) parameters.set("need", JSON.stringify(state.need));
   if (state.show) parameters.set("show", LETTERS[state.show]);
   if (state.system !== "metric") parameters.set("units", state.system);
   for (const [path, unit] of Object.entries(state.fields)) parameters.set(`unit.${path}`, unit);
@@ -331,10 +331,7 @@ export function named(name, start, found) {
   return { ...found, screw: { catalogue: name, ...Object.fromEntries(changed) } };
 }
 
-/**
- * @param {unknown} one
- * @param {unknown} other
- */
-function isSame(one, other) {
+/** Test whether both are the same as JSON. @param {unknown} one @param {unknown} other */
+export function isSame(one, other) {
   return JSON.stringify(one) === JSON.stringify(other);
 }

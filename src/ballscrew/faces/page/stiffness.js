@@ -1,9 +1,7 @@
 // The nut: how far it gives way, what is left of its preload, and the load of each ball.
 
-import * as parts from "./chart_parts.js";
-import { hide } from "./chart_place.js";
+import { draw, hide } from "./chart_place.js";
 import { byId, element, table, update } from "./dom.js";
-import { draw } from "./plot.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -131,7 +129,7 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }, ha
     { name: "flank that carries the load", values: converted(forward) },
     { name: "other flank", values: converted(backward) },
   ].filter(({ values }) => values.some((value) => value > 0));
-  const y = parts.titled("contact_load", "load of a ball");
+  const y = units.heading("contact_load", "load of a ball");
   // a bar for all balls of a half
   const alike = places.length <= halves && Array.isArray(count);
   const x = alike ? (halves > 1 ? "half" : "all balls alike") : "ball, along the nut";
@@ -154,7 +152,7 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }, ha
       })),
     },
     numbers: () => [
-      ["ball", ...flanks.map(({ name }) => parts.titled("contact_load", name))],
+      ["ball", ...flanks.map(({ name }) => units.heading("contact_load", name))],
       places.map((one, place) => [one, ...flanks.map(({ values }) => values[place])]),
     ],
   });

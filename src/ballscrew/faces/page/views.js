@@ -4,31 +4,19 @@
 import { byId, element, keepFocus } from "./dom.js";
 import { store } from "./store.js";
 
-/** Names of the views. @type {Record<string, string>} */
+/** Names of the views, in the order of their tabs. @type {Record<string, string>} */
 const NAMES = {
-  axis: "Axis",
-  checks: "Checks",
-  choose: "Choose",
-  duty: "Duty",
-  handover: "Hand over",
-  heat: "Heat",
-  measure: "Measure",
-  nut: "Nut",
   torque: "Torque",
+  nut: "Nut",
+  checks: "Checks",
+  duty: "Duty",
+  heat: "Heat",
+  axis: "Axis",
+  choose: "Choose",
+  measure: "Measure",
+  handover: "Hand over",
 };
-
-/** The views, in the order of their tabs. */
-const VIEWS = /** @type {const} */ ([
-  "torque",
-  "nut",
-  "checks",
-  "duty",
-  "heat",
-  "axis",
-  "choose",
-  "measure",
-  "handover",
-]);
+const VIEWS = Object.keys(NAMES);
 /** Milliseconds for which a part stays where it was scrolled to. */
 const KEPT = 4000;
 /** What addresses named once. @type {Record<string, string>} */
@@ -127,7 +115,7 @@ export function show() {
   if (before !== undefined || address.includes(".")) scrollTo(address);
 }
 
-/** @param {typeof VIEWS[number]} name @param {boolean} isCurrent */
+/** @param {string} name @param {boolean} isCurrent */
 function tab(name, isCurrent) {
   const marks = { id: `to-${name}`, "data-view": name, "aria-current": isCurrent ? "page" : undefined };
   return element("button", { type: "button", ...marks, onclick: () => go(name) }, NAMES[name]);

@@ -2,13 +2,10 @@
 // sensitivity. The answer is asked for by the button alone.
 
 import * as designs from "../designs.js";
-import { primaryButton } from "../controls.js";
 import { element } from "../dom.js";
 import { documented } from "../help.js";
-import { vocabulary } from "../vocabulary.js";
-import { caseFile, commandLine, faultLines } from "./log_parts.js";
-import { flags, optionFields } from "./option_fields.js";
-import { question } from "./question.js";
+import { buttonCard } from "./button_card.js";
+import { caseFile } from "./log_parts.js";
 
 /** What the documentation of each says. @type {Record<string, string>} */
 const HOW_TO = {
@@ -42,46 +39,12 @@ const PAGES = { reversal: "howto/reversal", ripple: "howto/ripple", sensitivity:
  */
 export function setUp(holder) {
   const name = /** @type {keyof typeof PAGES} */ (holder.id);
-  /** @type {import("../state.js").Tables} */
-  let tables = {};
-  const problems = element("div");
-  const asked = question({
-    address: name,
-    place: (faults) => {
-      problems.replaceChildren(...faultLines(faults));
-      return undefined;
-    },
+  const page = documented(PAGES[name], HOW_TO[name]);
+  return buttonCard(holder, {
+    name,
+    words: START[name],
+    parts: [element("p", { class: "small" }, `${ABOUT[name]} `, page)],
+    body: async () => ({ case: await designs.currentCase() }),
+    line: () => [caseFile()],
   });
-  const start = primaryButton(`${name}-start`, START[name], async () => {
-    tables = await designs.currentCase();
-    asked.follow(body(), 0);
-  });
-  const command = element("div");
-  const options = vocabulary.options[name];
-  /** @type {import("./option_fields.js").Given} */
-  const chosen = {};
-  const page = documented(PAGES[name], HOW_TO[name] ?? name);
-  holder.replaceChildren(
-    asked.head,
-    element("p", { class: "small" }, `${ABOUT[name] ?? name} `, page),
-    optionFields(name, options, chosen, () => follow()),
-    element("p", { class: "card-start" }, start),
-    command,
-    asked.line,
-    problems,
-    asked.result,
-  );
-  asked.resume();
-
-  function body() {
-    return { case: tables, ...chosen };
-  }
-
-  async function follow() {
-    tables = await designs.currentCase();
-    command.replaceChildren(commandLine(["ballscrew", name, caseFile(), ...flags(options, chosen)]));
-    asked.compare(body());
-  }
-
-  return { follow };
 }

@@ -6,11 +6,11 @@ import { element, redraw } from "../dom.js";
 import { save } from "../saving.js";
 import { linesOf, Problem } from "../server.js";
 import { askPatiently, sendPatiently } from "../long_work.js";
+import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import { choices, columns } from "./log_columns.js";
 import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
-import { TORQUE } from "./quantities.js";
 import { question } from "./question.js";
 
 /** Milliseconds after the last key until the server is asked about a log, which may be long. */
@@ -203,7 +203,8 @@ export function setUp(holder) {
   /** @param {number | null} before @param {number | null} after */
   function change(before, after) {
     if (before === null || after === null) return "";
-    return `Friction torque at its operating point: ${TORQUE.text(before)} → ${TORQUE.text(after)}.`;
+    const [from, to] = [before, after].map((torque) => units.formatted("screw_torque", torque));
+    return `Friction torque at its operating point: ${from} → ${to}.`;
   }
 
   /** Put what was found into the design; the button Undo takes it back. @param {FitAnswer} found */

@@ -2,11 +2,11 @@
 
 import * as designs from "../designs.js";
 import { box, button, menu, textField } from "../controls.js";
-import { element, redraw, scrolling } from "../dom.js";
-import { draw } from "../plot.js";
+import { element, redraw, scrollingTable } from "../dom.js";
+import { draw } from "../chart_place.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { CHECKS } from "../names.js";
+import { nameOfCheck } from "../names.js";
 import * as units from "../units.js";
 
 /** Objectives in words. @type {Record<string, string>} */
@@ -286,51 +286,27 @@ function tableOf(shown, known, order, sortBy, say) {
     ["verdict", "checks"],
     ...columns.map((name) => /** @type {[string, string]} */ ([name, heading(name)])),
   ];
-  const direction = order.down ? "descending" : "ascending";
   const sorting = headings.map(([column, words]) =>
-    element(
-      "th",
-      { scope: "col", "aria-sort": column === order.column ? direction : null },
-      button(words, () => sortBy(column), { class: "sort", id: `choose-sort-${column}`, "data-sort": column }),
-    ),
+    button(words, () => sortBy(column), { class: "sort", id: `choose-sort-${column}`, "data-sort": column }),
   );
-  const rows = shown.map((one) =>
-    element(
-      "tr",
-      { "data-rank": one.rank },
-      element("th", { scope: "row" }, String(one.rank)),
-      element("td", { class: "words" }, one.label, one.pareto ? element("em", {}, " front") : null),
-      element("td", { class: "words" }, verdictOf(one)),
-      ...columns.map((name) =>
-        element(
-          "td",
-          {},
-          element("data", { value: String(valueIn(one, name) ?? "") }, units.digits(numberOf(one, name))),
-        ),
-      ),
-      element(
-        "td",
-        {},
-        button("Take as design", () => take(one, say), { "aria-label": `Take ${one.label} as design` }),
-      ),
+  const rows = shown.map((one) => [
+    String(one.rank),
+    element("span", {}, one.label, one.pareto ? element("em", {}, " front") : null),
+    verdictOf(one),
+    ...columns.map((name) =>
+      element("data", { value: String(valueIn(one, name) ?? "") }, units.digits(numberOf(one, name))),
     ),
-  );
-  const label = "candidates, ranked";
-  return scrolling(
-    label,
-    element(
-      "table",
-      {},
-      element("caption", {}, label),
-      element("thead", {}, element("tr", {}, ...sorting, element("th", { scope: "col" }, "what to do"))),
-      element("tbody", {}, ...rows),
-    ),
-  );
-}
-
-/** @param {{ name: string }} check */
-function nameOf({ name }) {
-  return CHECKS[name] ?? name.replaceAll("_", " ");
+    button("Take as design", () => take(one, say), { "aria-label": `Take ${one.label} as design` }),
+  ]);
+  const found = scrollingTable("candidates, ranked", [...sorting, "what to do"], rows);
+  const by = headings.findIndex(([column]) => column === order.column);
+  const direction = order.down ? "descending" : "ascending";
+  if (by >= 0) found.querySelectorAll("th")[by].setAttribute("aria-sort", direction);
+  for (const [place, row] of [...found.querySelectorAll("tr")].slice(1).entries()) {
+    row.dataset.rank = String(shown[place].rank);
+    for (const cell of [...row.cells].slice(1, 3)) cell.classList.add("words");
+  }
+  return found;
 }
 
 /** @param {number | null | undefined} share */
@@ -345,7 +321,7 @@ function multiple(share) {
  */
 function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_off_load: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
-  const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
+  const failing = fails.map((check) => `${nameOfCheck(check)}${multiple(check.utilisation)}`).join(", ");
   const words = failing
     ? complete
       ? `Fails: ${failing}.`
@@ -377,7 +353,7 @@ function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_
       const shown = (number) => units.formattedIn(number, SHOWN_IN[unit] ?? unit, unit);
       const share = typeof utilisation === "number" ? ` (${units.digits(100 * utilisation, DIGITS_OF_SHARE)} %)` : "";
       const numbers = check.holds === null ? "not judged" : `${shown(value)} / ${shown(limit)}${share}`;
-      return element("li", {}, `${nameOf({ name })}: ${numbers}`);
+      return element("li", {}, `${nameOfCheck({ name })}: ${numbers}`);
     });
     details.append(element("ul", {}, ...lines));
   });

@@ -1,15 +1,14 @@
 // Fields of a card: sections of the case that the form does not show, with their faults beside them.
 
 import { framed } from "../controls.js";
-import { element, within } from "../dom.js";
-import { inWords } from "../messages.js";
-import { choiceField, numberField, showEffective } from "../fields.js";
+import { element, fieldIn } from "../dom.js";
+import { markFaults } from "../messages.js";
+import { fieldFor, showEffective } from "../fields.js";
 import * as schema from "../schema.js";
 import { valueAt } from "../state.js";
 
-/** @typedef {import("../fields.js").Change} Change */
-/** @typedef {import("../state.js").FrozenState} State */
-/** @typedef {import("../state.js").Tables} Tables */
+/** @import { Change } from "../fields.js" */
+/** @import { FrozenState as State, Tables } from "../state.js" */
 
 /**
  * The fields of a section by their names, in a fieldset.
@@ -22,12 +21,8 @@ import { valueAt } from "../state.js";
 export function fieldset(section, title, names, { state, tables, onChange }) {
   /** @param {string} path */
   const given = (path) => valueAt(tables, path);
-  const fields = names.map((name) => {
-    const path = `${section}.${name}`;
-    const node = schema.fieldOf(path) ?? {};
-    if (node.enum || node.type === "boolean") return choiceField(path, node, given(path), onChange);
-    return numberField(path, node, { state, given, lawOf: () => undefined, onChange });
-  });
+  const paths = names.map((name) => `${section}.${name}`);
+  const fields = paths.map((path) => fieldFor(path, schema.fieldOf(path) ?? {}, { state, given, onChange }));
   return framed(title, element("div", { class: "grid" }, ...fields));
 }
 
@@ -57,19 +52,5 @@ export function showValues(holder, inputs) {
  * @returns {FaultLine[]} those of no field here
  */
 export function placeFaults(holder, faults) {
-  for (const wrong of holder.querySelectorAll(".wrong")) {
-    wrong.classList.remove("wrong");
-    within(wrong, ".fault").textContent = "";
-    wrong.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
-  }
-  /** @type {NodeListOf<HTMLElement>} */
-  const places = holder.querySelectorAll("[data-path]");
-  return faults.filter((fault) => {
-    const place = [...places].find((one) => one.dataset.path === fault.path);
-    if (!place) return true;
-    place.classList.add("wrong");
-    within(place, ".fault").textContent = inWords(fault);
-    place.querySelector("input, select")?.setAttribute("aria-invalid", "true");
-    return false;
-  });
+  return markFaults(holder, faults, ({ path }) => fieldIn(holder, path));
 }

@@ -2,19 +2,20 @@
 
 import * as designs from "../designs.js";
 import { box, button, framed, namedButton, primaryButton } from "../controls.js";
-import { element, within } from "../dom.js";
-import { inWords, labelOf } from "../messages.js";
-import { choiceField, numberField } from "../fields.js";
-import { answerOfKept, drop, keptJob, runJob } from "../jobs.js";
+import { element, fieldIn, within } from "../dom.js";
+import { inWords, labelOf, markFaults } from "../messages.js";
+import { fieldFor, labelIn } from "../fields.js";
+import { drop, keptJob } from "../jobs.js";
 import { FIELDS, LISTS, OF_MASS } from "../needs.js";
 import * as schema from "../schema.js";
-import { get, linesOf, Problem, sendJson } from "../server.js";
+import { get, sendJson } from "../server.js";
 import { valueAt } from "../state.js";
 import { store } from "../store.js";
-import { CHECKS } from "../names.js";
+import { nameOfCheck } from "../names.js";
 import * as units from "../units.js";
 import { asTheyCome, candidates } from "./candidates.js";
-import { leftOut, tables } from "./need_tables.js";
+import { leftOut, missingIn, tables } from "./need_tables.js";
+import { question } from "./question.js";
 
 /** Hints in the fields of a need. @type {Record<string, string>} */
 const HINTS = {
@@ -27,8 +28,7 @@ const HINTS = {
 
 /** @type {Record<string, import("../schema.js").SchemaNode>} */
 const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], default: "allowed" }, accuracy: {} };
-/** Whose job a selection is. */
-const PLACE = "choose";
+const ADDRESS = "select";
 
 /** @typedef {import("../state.js").Need} Need */
 /** @typedef {import("../state.js").Frozen<Need>} FrozenNeed */
@@ -37,9 +37,31 @@ const PLACE = "choose";
 export function setUp(holder) {
   const fields = element("div", { class: "grid" });
   const sources = element("div", {});
+  const wanted = element("p", { class: "warning", id: "choose-wanted", "aria-live": "polite", hidden: true });
   const faults = element("div", { class: "faults" });
-  const progress = element("div", { class: "card-line" });
+  const counted = element("p", { role: "status", hidden: true });
   const result = element("div", { id: "choose-result", "aria-live": "off" });
+  const asked = question({
+    address: ADDRESS,
+    result,
+    show: (found) => {
+      candidates(result, found);
+      counted.textContent = counts(found);
+      counted.hidden = false;
+    },
+    place: (lines) => {
+      place(lines);
+      return undefined;
+    },
+    isLarge: () => true,
+    about: () => about,
+    news: ({ rows }) => {
+      if (!rows.length) return;
+      coming.push(.../** @type {any[]} */ (rows));
+      asTheyCome(result, coming);
+    },
+    doing: () => cost || "computing …",
+  });
   const start = primaryButton("choose-start", "Find screws", () => ask());
   const fill = button("Take load, length, life and oil of the design", () => takeDesign());
   holder.replaceChildren(
@@ -50,12 +72,14 @@ export function setUp(holder) {
         { class: "small" },
         "Give force and feed, or a mass with acceleration, feed and stroke: the screw is then judged by the cycle there and back, at its peak load and by its mean.",
       ),
+      wanted,
       fields,
       sources,
     ),
     element("p", {}, start, " ", fill),
     faults,
-    progress,
+    asked.line,
+    counted,
     result,
   );
   /** Schemas of the fields that only needs have. @type {Record<string, import("../schema.js").SchemaNode>} */
@@ -64,7 +88,10 @@ export function setUp(holder) {
   let shown = "";
   /** The table of one's own that may take the place of the catalogue. @type {typeof store.state.table} */
   let offered;
-  let request = new AbortController();
+  /** What is asked for, and the candidates that are known by now. @type {object} */
+  let about = {};
+  /** @type {import("./candidates.js").Row[]} */
+  let coming = [];
   let withTable = true;
   /** What a selection costs, and the inputs that somebody has said may stay empty. */
   let [cost, agreed] = ["", ""];
@@ -78,9 +105,7 @@ export function setUp(holder) {
     const given = (path) => texts[path.slice("need.".length)];
     const made = Object.entries(FIELDS).map(([name, path]) => {
       const node = (path ? schema.fieldOf(path) : known[name]) ?? {};
-      const place = `need.${name}`;
-      if (node.enum) return choiceField(place, node, given(place), onChange);
-      return numberField(place, LISTS.includes(name) ? {} : node, { state, given, lawOf: () => undefined, onChange });
+      return fieldFor(`need.${name}`, LISTS.includes(name) ? {} : node, { state, given, onChange });
     });
     for (const field of made) {
       const hint = HINTS[nameOf(field)] ?? "";
@@ -100,8 +125,11 @@ export function setUp(holder) {
     shown = JSON.stringify(need());
   }
 
-  /** Close the fields that others stand for. */
+  /** Close the fields that others stand for, and say which are still to be given. */
   function bar() {
+    const missing = missingIn(need()).map((name) => labelIn(name));
+    wanted.hidden = !missing.length;
+    wanted.textContent = missing.length ? `Still to be given: ${missing.join(", ")}.` : "";
     const closed = leftOut(need());
     for (const field of /** @type {NodeListOf<HTMLElement>} */ (fields.querySelectorAll(".field"))) {
       /** @type {NodeListOf<HTMLInputElement | HTMLSelectElement>} */
@@ -153,47 +181,38 @@ export function setUp(holder) {
   }
 
   async function ask() {
-    request.abort();
-    request = new AbortController();
-    const { signal } = request;
+    counted.hidden = true;
+    coming = [];
     const table = withTable ? store.state.table?.file : undefined;
-    progress.replaceChildren(element("p", {}, "computing …"));
-    await conclude(begun(table, signal), signal);
-  }
-
-  /**
-   * The answer; nothing where it is asked first whether to start.
-   *
-   * @param {object | undefined} table
-   * @param {AbortSignal} signal
-   */
-  async function begun(table, signal) {
-    const about = await tables(need());
-    const body = { need: about, ...(table && { table }) };
-    if (!(await isAgreed(body, signal))) return undefined;
-    return runJob("select", body, { place: PLACE, signal, about, told: say(signal) });
+    try {
+      about = await tables(need());
+      const body = { need: about, ...(table && { table }) };
+      if (await isAgreed(body)) counted.hidden = !asked.follow(body, 0);
+    } catch (error) {
+      asked.refuse(error);
+    }
   }
 
   /**
    * Test whether to start: a need that leaves open what checks want is asked about first, once.
    *
    * @param {object} body
-   * @param {AbortSignal} signal
    */
-  async function isAgreed(body, signal) {
+  async function isAgreed(body) {
     /** @type {SelectPlan} */
-    const plan = await sendJson("select/plan", body, signal);
+    const plan = await sendJson("select/plan", body);
     const inputs = plan.unasked.map(({ input }) => labelOf(input)).join(", ");
     cost = `Candidates: ${plan.candidates}, ${units.digits(Math.max(1, plan.seconds), 2)} s of a processor at most.`;
     if (!inputs || inputs === agreed) return true;
     const names = [...new Set(plan.unasked.flatMap(({ checks }) => checks))];
-    const checks = names.map((name) => CHECKS[name] ?? name.replaceAll("_", " ")).join(", ");
+    const checks = names.map((name) => nameOfCheck({ name })).join(", ");
     const anyway = namedButton("choose-anyway", "Start without them", () => {
       agreed = inputs;
       ask();
     });
+    asked.stop();
     place([]);
-    progress.replaceChildren(
+    asked.line.replaceChildren(
       element(
         "p",
         { class: "warning", role: "alert" },
@@ -206,73 +225,10 @@ export function setUp(holder) {
 
   /** Go on with what was begun before the page was loaded again, unless the need has become another one. */
   async function resume() {
-    const { signal } = request;
-    const kept = keptJob(PLACE);
+    const kept = keptJob(ADDRESS);
     if (!kept) return;
-    const found = await tables(need());
-    if (signal.aborted) return; // somebody has asked meanwhile
-    if (JSON.stringify(found) !== JSON.stringify(kept.about)) {
-      drop(PLACE);
-      return;
-    }
-    const coming = answerOfKept({ place: PLACE, signal, told: say(signal) });
-    if (coming) await conclude(coming, signal);
-  }
-
-  /**
-   * Show the candidates that come, or why there are none.
-   *
-   * @param {Promise<Response | undefined>} coming
-   * @param {AbortSignal} signal
-   */
-  async function conclude(coming, signal) {
-    try {
-      const answer = await coming;
-      if (!answer) return;
-      /** @type {Select} */
-      const found = await answer.json();
-      signal.throwIfAborted();
-      place([]);
-      candidates(result, found);
-      progress.replaceChildren(element("p", { role: "status" }, counts(found)));
-    } catch (error) {
-      if (signal !== request.signal) return; // another question stands there
-      if (signal.aborted) {
-        progress.replaceChildren(element("p", {}, "Cancelled."));
-        return;
-      }
-      const lines = error instanceof Problem ? error.faults : [];
-      place(lines);
-      progress.replaceChildren(
-        element("p", { class: "warning" }, lines.length ? "Not computed." : linesOf(error).join("; ")),
-      );
-    }
-  }
-
-  /**
-   * Say how far the work is, with a button that cancels it.
-   *
-   * @param {AbortSignal} signal
-   * @returns {(job: JobDocument) => void} gets news of it
-   */
-  function say(signal) {
-    const bar = element("progress", { "aria-label": "computing …" });
-    const words = element("span", {}, cost || "computing …");
-    /** @type {import("./candidates.js").Row[]} */
-    const known = [];
-    const cancel = button("Cancel", () => request.abort());
-    progress.replaceChildren(bar, words, cancel);
-    return ({ finished, total, rows }) => {
-      if (signal.aborted) return;
-      if (rows.length) {
-        known.push(.../** @type {any[]} */ (rows));
-        asTheyCome(result, known);
-      }
-      if (!total) return;
-      bar.max = total;
-      bar.value = finished;
-      words.textContent = `${finished} of ${total} candidates`;
-    };
+    if (JSON.stringify(await tables(need())) === JSON.stringify(kept.about)) asked.resume();
+    else drop(ADDRESS);
   }
 
   /**
@@ -281,20 +237,9 @@ export function setUp(holder) {
    * @param {FaultLine[]} lines
    */
   function place(lines) {
-    for (const wrong of fields.querySelectorAll(".field")) {
-      wrong.classList.remove("wrong");
-      within(wrong, ".fault").textContent = "";
-      wrong.querySelector("[aria-invalid]")?.removeAttribute("aria-invalid");
-    }
-    const others = lines.filter((fault) => {
-      const [name] =
-        Object.entries(FIELDS).find(([short, path]) => [path, `need.${short}`, short].includes(fault.where)) ?? [];
-      const field = name && fields.querySelector(`[data-path="need.${name}"]`);
-      if (!field) return true;
-      field.classList.add("wrong");
-      within(field, ".fault").textContent = inWords(fault);
-      within(field, "input, select").setAttribute("aria-invalid", "true");
-      return false;
+    const others = markFaults(fields, lines, ({ where }) => {
+      const known = Object.entries(FIELDS).find(([name, path]) => [path, `need.${name}`, name].includes(where));
+      return known && fieldIn(fields, `need.${known[0]}`);
     });
     faults.replaceChildren(...others.map((fault) => element("p", {}, `${labelOf(fault.where)}: ${inWords(fault)}`)));
     fields.querySelector(".wrong")?.scrollIntoView({ block: "nearest" });

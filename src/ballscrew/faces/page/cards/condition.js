@@ -1,13 +1,11 @@
 // The card of a condition: the tests of a nut over its life, from a table or from a log each, the preload that is left in
 // each, the trend, and the alarm.
 
+import { button } from "../controls.js";
 import * as designs from "../designs.js";
-import { primaryButton } from "../controls.js";
 import { element } from "../dom.js";
-import { vocabulary } from "../vocabulary.js";
-import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
-import { flags, optionFields } from "./option_fields.js";
-import { question } from "./question.js";
+import { buttonCard } from "./button_card.js";
+import { caseFile, dropZone, exampleButton } from "./log_parts.js";
 
 /** Logs at most: more tests stand in a table. */
 const MOST = 100;
@@ -29,18 +27,6 @@ function isByName(tests) {
 export function setUp(holder) {
   /** @type {import("./log_parts.js").SentFile[]} */
   let tests = [];
-  /** @type {import("../state.js").Tables} */
-  let tables = {};
-  const problems = element("div", {});
-  const asked = question({
-    address: "condition",
-    place: (faults) => {
-      problems.replaceChildren(...faultLines(faults));
-      asked.head.hidden = asked.result.hidden = faults.length > 0; // what other tests told is no answer below a fault
-      return undefined;
-    },
-    isLarge: () => true,
-  });
   const list = element("ol", { class: "rows", id: "condition-tests" });
   const zone = dropZone(
     "condition-log",
@@ -52,28 +38,14 @@ export function setUp(holder) {
     tests = [];
     add(logs);
   });
-  const start = primaryButton("condition-start", "Find the condition", async () => {
-    tables = await designs.currentCase();
-    asked.follow(body(), 0);
+  const card = buttonCard(holder, {
+    name: "condition",
+    words: "Find the condition",
+    parts: [zone.zone, list, example],
+    body: async () => ({ case: await designs.currentCase(), tests }),
+    line: () => (tests.length ? [...tests.map(({ name }) => name), "--case", caseFile()] : []),
+    isOfFiles: true,
   });
-  start.disabled = true;
-  const command = element("div", {});
-  const options = vocabulary.options.condition;
-  /** @type {import("./option_fields.js").Given} */
-  const chosen = {};
-  holder.replaceChildren(
-    asked.head,
-    zone.zone,
-    list,
-    example,
-    optionFields("condition", options, chosen, follow),
-    element("p", { class: "card-start" }, start),
-    command,
-    asked.line,
-    problems,
-    asked.result,
-  );
-  asked.resume();
 
   /** Add logs, in the order of their names, as dates in them sort. @param {import("./log_parts.js").SentFile[]} files */
   function add(files) {
@@ -85,7 +57,7 @@ export function setUp(holder) {
     showTests();
     const left = all.slice(MOST).map(({ name }) => name);
     if (left.length)
-      problems.replaceChildren(
+      card.problems.replaceChildren(
         element("p", { class: "warning" }, `${MOST} tests at most; left out: ${left.join(", ")}`),
       );
   }
@@ -101,7 +73,7 @@ export function setUp(holder) {
       ...tests.map(({ name }, place) => {
         /** @param {string} words @param {() => void} onclick @param {boolean} disabled */
         const act = (words, onclick, disabled = false) =>
-          element("button", { type: "button", disabled, "aria-label": `${words}: ${name}`, onclick }, words);
+          button(words, onclick, { disabled, "aria-label": `${words}: ${name}` });
         const leave = () => {
           tests.splice(place, 1);
           showTests();
@@ -120,21 +92,8 @@ export function setUp(holder) {
         );
       }),
     );
-    follow();
+    card.follow();
   }
 
-  function body() {
-    return { case: tables, tests, ...chosen };
-  }
-
-  async function follow() {
-    tables = await designs.currentCase();
-    start.disabled = !tests.length;
-    const names = tests.map(({ name }) => name);
-    const line = ["ballscrew", "condition", ...names, "--case", caseFile(), ...flags(options, chosen)];
-    command.replaceChildren(...(tests.length ? [commandLine(line)] : []));
-    asked.compare(body());
-  }
-
-  return { follow };
+  return card;
 }

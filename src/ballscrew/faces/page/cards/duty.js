@@ -3,13 +3,14 @@
 import * as designs from "../designs.js";
 import { button, labelled, menu } from "../controls.js";
 import { element, redraw } from "../dom.js";
-import { isSmall, sent, tooLarge } from "../opening.js";
+import { MOST_BYTES } from "../opening.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
 import { store } from "../store.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import { placeFaults, showValues } from "./case_fields.js";
+import { dropZone } from "./log_parts.js";
 import { inputs as fieldsOf } from "./motion.js";
 import { question } from "./question.js";
 
@@ -36,7 +37,8 @@ export function setUp(holder) {
     isLarge: (body) => "trace" in body,
   });
   const recorded = element("p", { class: "card-start" });
-  const begin = element("div", {}, examples(vocabulary.starts), recorded, note);
+  const zone = dropZone("duty-trace", "A recorded motion (time, position or speed)", take, { most: MOST_BYTES });
+  const begin = element("div", {}, examples(vocabulary.starts), zone.zone, recorded, note);
   holder.replaceChildren(asked.head, begin, editor, asked.line, asked.result);
 
   /** Sections of the case, with those of the example where it has none. @type {Tables} */
@@ -44,7 +46,7 @@ export function setUp(holder) {
   let isExample = false;
   /** What the inputs show, as text. */
   let shown = "";
-  /** A recorded motion, which is no part of the design. @type {{ name: string, base64: string } | undefined} */
+  /** A recorded motion, which is no part of the design. @type {import("./log_parts.js").SentFile | undefined} */
   let trace;
   /** What counted in the answer. @type {Tables | undefined} */
   let inputs;
@@ -99,54 +101,31 @@ export function setUp(holder) {
     asked.follow(trace ? { case: tables, trace } : { case: tables });
   }
 
-  /**
-   * Take a recorded motion in place of that of the design, or none.
-   *
-   * @param {File | undefined} file
-   */
-  async function take(file) {
-    trace = undefined;
-    const isTaken = file && isSmall(file);
-    if (isTaken) trace = await sent(file);
-    showRecorded(file && !isTaken ? tooLarge(file) : "");
-    await follow();
-  }
-
-  /** @param {string} fault */
-  function showRecorded(fault) {
-    const input = element("input", {
-      type: "file",
-      id: "duty-trace",
-      hidden: true,
-      accept: ".csv,.txt,.tsv,.xlsx,.ods",
-    });
-    input.addEventListener("change", () => take(input.files?.[0]));
-    const label = "Choose a file: A recorded motion (time, position or speed):";
-    const choose = button("Choose a file", () => input.click(), { id: "duty-trace-choose", "aria-label": label });
-    const remove = () => take(undefined).then(() => document.getElementById("duty-trace-choose")?.focus());
-    const words = trace
-      ? `${trace.name} counts in place of the motion below. It is no part of the link or of the case.`
-      : fault;
+  /** Take a recorded motion in place of that of the design, or none. @param {typeof trace} file */
+  function take(file) {
+    trace = file;
+    const words = `${file?.name} counts in place of the motion below. It is no part of the link or of the case.`;
+    const remove = () => {
+      take(undefined);
+      zone.zone.querySelector("button")?.focus(); // that which was pressed is gone
+    };
     recorded.replaceChildren(
-      element("span", {}, "A recorded motion (time, position or speed):"),
-      choose,
-      input,
-      element("span", { class: fault ? "fault" : "small", role: "status" }, words),
-      ...(trace ? [button("Remove the recorded motion", remove, { id: "duty-trace-remove" })] : []),
+      element("span", { class: "small", role: "status" }, file ? words : ""),
+      file ? button("Remove the recorded motion", remove, { id: "duty-trace-remove" }) : "",
     );
+    return follow();
   }
 
   holder.addEventListener("drop", (event) => {
+    if (!event.defaultPrevented) zone.readAll(event.dataTransfer?.files);
     event.preventDefault(); // the page does not open it as a case
-    take(event.dataTransfer?.files[0]);
   });
-  showRecorded("");
 
-  /** That bearings and guides of the case count, which are not shown here. */
+  /** What counts here, beside what is shown. */
   function otherParts() {
-    return tables.bearings || tables.guides
-      ? "The bearings and guides of the case count too; their tables are changed in its file."
-      : "";
+    const ofCase = "The bearings and guides of the case count too; their tables are changed in its file.";
+    const loads = "Loads are those of mass and motion: load and speed of the operating point do not count here.";
+    return tables.bearings || tables.guides ? `${loads} ${ofCase}` : loads;
   }
 
   /** @param {Vocabulary["starts"]} starts */

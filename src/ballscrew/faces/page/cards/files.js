@@ -2,8 +2,8 @@
 
 import * as designs from "../designs.js";
 import { button, textField } from "../controls.js";
-import { byId, element } from "../dom.js";
-import { keeping } from "../keeping.js";
+import { byId, element, scrollingTable } from "../dom.js";
+import { keeping, WHEN } from "../keeping.js";
 import { takeRow } from "../opening.js";
 import { save } from "../saving.js";
 import { linesOf, send } from "../server.js";
@@ -13,7 +13,6 @@ import { NOT_KEPT } from "../names.js";
 
 /** Kinds of project files. */
 const KINDS = ["toml", "json"];
-const WHEN = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" });
 
 /** @param {HTMLElement} holder */
 export function setUp(holder) {
@@ -69,7 +68,7 @@ export function setUp(holder) {
 
 function listOfDesigns() {
   const { designs: all, show } = store.state;
-  const body = all.map((one, place) => {
+  const rows = all.map((one, place) => {
     const letter = LETTERS[place];
     const asides = Object.keys(one.aside ?? {});
     /** @param {string} words @param {() => void} action @param {boolean} disabled */
@@ -79,38 +78,27 @@ function listOfDesigns() {
       maxlength: 80,
       "aria-label": `name of design ${letter}`,
     });
-    return element(
-      "tr",
-      {},
-      element("th", { scope: "row" }, letter),
-      element("td", {}, field),
+    return [
+      letter,
+      field,
       element(
-        "td",
+        "span",
         {},
         designs.titleOf({ ...one, name: "" }),
         asides.length ? element("span", { class: "small" }, ` (kept aside: ${asides.join(", ")})`) : null,
       ),
       element(
-        "td",
+        "span",
         { class: "actions" },
         act("Show", () => designs.show(place), place === show),
         act("Copy", () => designs.duplicate(place), !designs.hasRoom()),
         act("Delete", () => designs.remove(place), all.length === 1),
       ),
-    );
+    ];
   });
-  const headings = ["design", "name", "starts from", "what to do"];
-  return element(
-    "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": "designs on this page" },
-    element(
-      "table",
-      { class: "left" },
-      element("caption", {}, "designs on this page"),
-      element("thead", {}, element("tr", {}, ...headings.map((words) => element("th", { scope: "col" }, words)))),
-      element("tbody", {}, ...body),
-    ),
-  );
+  const found = scrollingTable("designs on this page", ["design", "name", "starts from", "what to do"], rows);
+  found.querySelector("table")?.classList.add("left");
+  return found;
 }
 
 /**

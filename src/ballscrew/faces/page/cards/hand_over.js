@@ -1,15 +1,15 @@
 // The card of a hand-over: a target, its choices, the error of what is made, its files, and the command for the same.
 
+import { framed, labelled, namedButton, opened } from "../controls.js";
 import * as designs from "../designs.js";
-import { framed, labelled, namedButton, primaryButton, opened } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
+import { COLUMNS } from "../names.js";
 import { save } from "../saving.js";
 import { get } from "../server.js";
-import { COLUMNS } from "../names.js";
 import * as units from "../units.js";
-import { caseFile, commandLine, faultLines } from "./log_parts.js";
-import { question } from "./question.js";
-import { lines } from "./records.js";
+import { buttonCard } from "./button_card.js";
+import { caseFile } from "./log_parts.js";
+import { warningLines } from "./records.js";
 
 /** Ranges that may be given, with an example. @type {Record<string, string>} */
 const RANGES = { axial_load: "-5:5 kN", screw_speed: "-300:300 rpm" };
@@ -21,36 +21,24 @@ const RANGES = { axial_load: "-5:5 kN", screw_speed: "-300:300 rpm" };
 export function setUp(holder) {
   /** @type {Targets["targets"]} */
   let targets = [];
-  /** @type {import("../state.js").Tables} */
-  let tables = {};
   const select = element("select", { id: "hand-over-target" });
   const options = element("div", { class: "grid" });
-  const problems = element("div");
-  const command = element("div");
   const result = element("div", { class: "card-result" });
-  const asked = question({
-    address: "hand-over",
-    result,
-    show: (found) => show(found),
-    place: (faults) => {
-      problems.replaceChildren(...faultLines(faults));
-      return undefined;
+  const card = buttonCard(holder, {
+    name: "hand-over",
+    id: "hand-over-make",
+    words: "Make the files",
+    parts: [labelled(select, "for"), framed("Options", options)],
+    body: async () => ({ case: await designs.currentCase(), ...given() }),
+    line: () => {
+      const { to, ranges, options: choices } = given();
+      /** @param {string} option @param {Record<string, string>} values */
+      const words = (option, values) => Object.entries(values).flatMap(([name, value]) => [option, `${name}=${value}`]);
+      return [caseFile(), "--to", to, "-o", "out", ...words("--range", ranges), ...words("--option", choices)];
     },
-  });
-  const make = primaryButton("hand-over-make", "Make the files", async () => {
-    tables = await designs.currentCase();
-    asked.follow(body(), 0);
-  });
-  holder.replaceChildren(
-    labelled(select, "for"),
-    framed("Options", options),
-    element("p", { class: "card-start" }, make),
-    command,
-    asked.line,
-    problems,
     result,
-  );
-  asked.resume();
+    show,
+  });
   select.addEventListener("change", () => {
     showOptions();
     follow();
@@ -69,8 +57,8 @@ export function setUp(holder) {
     return Object.fromEntries(inputs.map((one) => [one.name, one.value.trim()]));
   }
 
-  function body() {
-    return { case: tables, to: select.value, ranges: filled("range"), options: filled("option") };
+  function given() {
+    return { to: select.value, ranges: filled("range"), options: filled("option") };
   }
 
   function showOptions() {
@@ -90,7 +78,6 @@ export function setUp(holder) {
   }
 
   async function follow() {
-    tables = await designs.currentCase();
     if (!targets.length) {
       /** @type {Targets} */
       const found = await get("targets");
@@ -100,12 +87,7 @@ export function setUp(holder) {
       );
       showOptions();
     }
-    /** @param {string} option @param {Record<string, string>} given */
-    const words = (option, given) => Object.entries(given).flatMap(([name, value]) => [option, `${name}=${value}`]);
-    const { ranges, options: choices } = body();
-    const start = ["ballscrew", "hand-over", caseFile(), "--to", select.value, "-o", "out"];
-    command.replaceChildren(commandLine([...start, ...words("--range", ranges), ...words("--option", choices)]));
-    asked.compare(body());
+    await card.follow();
   }
 
   /** @param {HandOverAnswer} found */
@@ -137,7 +119,7 @@ export function setUp(holder) {
         element("p", {}, `${names.join(", ")} (${Math.ceil(bytes.length / 1000)} kB)`),
         element("p", { class: "card-start" }, download),
         ...(rows.length ? [scrollingTable(caption, headings, rows)] : []),
-        ...lines([], warnings),
+        ...warningLines(warnings),
         ranges,
       ),
     );

@@ -4,7 +4,7 @@ import { box, framed, labelled, menu, opened } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
 import { withPlace } from "../messages.js";
 import { COLUMNS } from "../names.js";
-import { quantity } from "./quantities.js";
+import * as units from "../units.js";
 
 /** Numbers of a fit in words. @type {Record<string, string>} */
 const NUMBERS = {
@@ -120,7 +120,7 @@ export function choices(free, chosen, change) {
       const kept = free.filter(({ name }) => (name === one.name ? isChecked : chosen.includes(name)));
       change(kept.map(({ name }) => name));
     };
-    const value = one.value === null ? "" : ` (${quantity(one.unit, one.shown_in).text(one.value)})`;
+    const value = one.value === null ? "" : ` (${units.formattedIn(one.value, one.shown_in, one.unit)})`;
     const words = `${meaningOf(one.name, free)}${value}`;
     return box(words, chosen.includes(one.name), take, { id: `free-${place}` });
   });

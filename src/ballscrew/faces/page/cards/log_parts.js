@@ -5,6 +5,7 @@ import * as designs from "../designs.js";
 import { button, namedButton } from "../controls.js";
 import { element } from "../dom.js";
 import { inWords, labelOf, withPlace } from "../messages.js";
+import { sent, tooLarge } from "../opening.js";
 import * as schema from "../schema.js";
 import { get } from "../server.js";
 
@@ -24,9 +25,10 @@ const SPECIAL = /[^\w@%+=:,./-]/;
  * @param {string} id
  * @param {string} label
  * @param {(file: SentFile) => void} take
- * @param {{ multiple?: boolean }} options whether several files may be given at once, each of which is taken
+ * @param {{ multiple?: boolean, most?: number }} options whether several files may be given at once, each of which is taken;
+ *   bytes at most
  */
-export function dropZone(id, label, take, { multiple = false } = {}) {
+export function dropZone(id, label, take, { multiple = false, most = MOST_BYTES } = {}) {
   const said = element("span", { id: `${id}-name`, "aria-live": "polite" });
   const input = element("input", {
     type: "file",
@@ -39,11 +41,9 @@ export function dropZone(id, label, take, { multiple = false } = {}) {
   /** @param {File | undefined} file */
   const read = async (file) => {
     if (!file) return;
-    if (file.size > MOST_BYTES) {
-      said.textContent = `${file.name} is too large here, ${Math.round(MOST_BYTES / 1e6)} MB at most; the command line takes it.`;
-      return;
-    }
-    use({ name: file.name, base64: inBase64(new Uint8Array(await file.arrayBuffer())) });
+    const fault = tooLarge(file, most);
+    if (fault) said.textContent = fault;
+    else use(await sent(file));
   };
   /** @param {FileList | null | undefined} files */
   const readAll = (files) => {
@@ -71,14 +71,7 @@ export function dropZone(id, label, take, { multiple = false } = {}) {
     zone.classList.remove("over");
     readAll(event.dataTransfer?.files);
   });
-  return { zone, use };
-}
-
-/** @param {Uint8Array} bytes */
-function inBase64(bytes) {
-  let binary = "";
-  for (const byte of bytes) binary += String.fromCharCode(byte);
-  return btoa(binary);
+  return { zone, use, readAll };
 }
 
 /**

@@ -15,9 +15,8 @@ const KINDS_IN_WORDS = {
   trapezoid: "stroke with constant acceleration",
 };
 
-/** @typedef {import("../state.js").FrozenState} State */
-/** @typedef {import("../state.js").Tables} Tables */
-/** @typedef {import("../schema.js").SchemaNode} SchemaNode */
+/** @import { SchemaNode } from "../schema.js" */
+/** @import { FrozenState as State, Tables } from "../state.js" */
 
 const SEGMENTS = "segments";
 const OF_AXIS = [

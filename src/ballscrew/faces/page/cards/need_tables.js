@@ -20,6 +20,17 @@ export function leftOut({ texts, duty }) {
 }
 
 /**
+ * The fields that are still to be given: load and speed, or what makes a motion of a mass; none where a file says them.
+ *
+ * @param {FrozenNeed} need
+ */
+export function missingIn({ texts, rest, duty }) {
+  if (duty || ["operation", ...OF_DUTY].some((name) => name in rest)) return [];
+  const needed = texts.mass ? ["acceleration", "feed", "stroke"] : OF_POINT;
+  return needed.filter((name) => !texts[name]);
+}
+
+/**
  * The tables of a need, as ``ballscrew select`` reads them.
  *
  * @param {FrozenNeed} need

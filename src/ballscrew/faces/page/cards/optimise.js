@@ -1,20 +1,17 @@
 // The card of an optimisation: what a screw for a need would look like, whose sizes are free within what is made: the
 // front of the best, each design by the full model, and as a design to take. The need is that of the card of choosing.
 
+import { button, framed } from "../controls.js";
 import * as designs from "../designs.js";
-import { button, primaryButton } from "../controls.js";
 import { element } from "../dom.js";
 import { labelOf } from "../messages.js";
 import { FIELDS } from "../needs.js";
-import { LETTERS } from "../state.js";
+import { isSame, LETTERS } from "../state.js";
 import { store } from "../store.js";
 import * as views from "../views.js";
-import { vocabulary } from "../vocabulary.js";
+import { buttonCard } from "./button_card.js";
 import { objective } from "./candidates.js";
-import { commandLine, faultLines } from "./log_parts.js";
-import { tables } from "./need_tables.js";
-import { flags, optionFields } from "./option_fields.js";
-import { question } from "./question.js";
+import { leftOut, tables } from "./need_tables.js";
 
 /** @typedef {OptimiseAnswer["candidates"][number]} Member */
 
@@ -29,29 +26,13 @@ const FRONT = "front";
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  /** @type {Record<string, any>} */
-  let need = {};
+  /** The objectives of the need, until others are chosen here. */
+  let usual = USUAL;
   let isOwn = false;
   /** @type {OptimiseAnswer | undefined} */
   let answer;
   const asks = element("div", {});
-  const problems = element("div", {});
-  const command = element("div", {});
   const taken = element("p", { role: "status" });
-  const asked = question({
-    address: "optimise",
-    beside: (table, row) => (table === FRONT ? takes(row) : undefined),
-    show: (found) => {
-      answer = found;
-    },
-    place: (faults) => {
-      problems.replaceChildren(...faultLines(faults));
-      return undefined;
-    },
-  });
-  const options = vocabulary.options.optimise.filter(({ name }) => name !== "objectives");
-  /** @type {import("./option_fields.js").Given} */
-  const chosen = {};
   const boxes = OBJECTIVES.map((name) => {
     const box = element("input", { type: "checkbox", checked: USUAL.includes(name), value: name });
     box.addEventListener("change", () => {
@@ -60,50 +41,34 @@ export function setUp(holder) {
     });
     return box;
   });
-  const start = primaryButton("optimise-start", "Search the front", async () => {
-    need = await tables(store.state.need);
-    asked.follow(body(), 0);
+  const fields = OBJECTIVES.map((name, place) => element("label", {}, boxes[place], ` ${objective(name)}`));
+  const card = buttonCard(holder, {
+    name: "optimise",
+    words: "Search the front",
+    parts: [asks, framed("Objectives", element("div", { class: "filters" }, ...fields)), taken],
+    apart: ["objectives"],
+    body: async () => ({ need: await tables(store.state.need), objectives: objectives() }),
+    line: () => {
+      const names = objectives();
+      return names.length ? ["need.toml", ...(isSame(names, usual) ? [] : ["--objectives", names.join(",")])] : [];
+    },
+    beside: (table, row) => (table === FRONT ? takes(row) : undefined),
+    show: (found) => {
+      answer = found;
+    },
   });
-  holder.replaceChildren(
-    asked.head,
-    asks,
-    element(
-      "fieldset",
-      { class: "card-fields" },
-      element("legend", {}, "Objectives"),
-      element(
-        "div",
-        { class: "filters" },
-        ...boxes.map((box) => element("label", {}, box, ` ${objective(box.value)}`)),
-      ),
-    ),
-    optionFields("optimise", options, chosen, follow),
-    element("p", { class: "card-start" }, start),
-    command,
-    asked.line,
-    problems,
-    taken,
-    asked.result,
-  );
-  asked.resume();
 
-  function body() {
-    const objectives = boxes.filter((box) => box.checked).map((box) => box.value);
-    return { need, objectives, ...chosen };
+  function objectives() {
+    return boxes.filter((box) => box.checked).map((box) => box.value);
   }
 
   async function follow() {
-    need = await tables(store.state.need);
+    const { optimise } = await tables(store.state.need);
+    usual = Array.isArray(optimise?.objectives) ? optimise.objectives : USUAL;
     asks.replaceChildren(element("p", {}, `The need: ${summary()}`), element("p", {}, toNeed()));
-    const listed = need.optimise?.objectives;
     // those of the need, until others are chosen here
-    if (!isOwn) for (const box of boxes) box.checked = (Array.isArray(listed) ? listed : USUAL).includes(box.value);
-    const { objectives } = body();
-    start.disabled = !objectives.length;
-    const names =
-      JSON.stringify(objectives) === JSON.stringify(listed ?? USUAL) ? [] : ["--objectives", objectives.join(",")];
-    command.replaceChildren(commandLine(["ballscrew", "optimise", "need.toml", ...names, ...flags(options, chosen)]));
-    asked.compare(body());
+    if (!isOwn) for (const box of boxes) box.checked = usual.includes(box.value);
+    await card.follow();
   }
 
   /** The button that takes a design of the front. @param {number} row */
@@ -129,8 +94,9 @@ export function setUp(holder) {
 /** What the need asks for, in words. */
 function summary() {
   const { texts, duty } = store.state.need;
+  const closed = leftOut(store.state.need);
   const given = Object.keys(FIELDS).flatMap((name) =>
-    texts[name] ? [`${labelOf(FIELDS[name] || `need.${name}`)}: ${texts[name]}`] : [],
+    texts[name] && !closed.includes(name) ? [`${labelOf(FIELDS[name] || `need.${name}`)}: ${texts[name]}`] : [],
   );
   return (
     [...given, ...(duty ? ["by the duty of the design on the page, in place of force and feed"] : [])].join("; ") ||

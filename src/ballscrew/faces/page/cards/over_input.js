@@ -1,7 +1,7 @@
 // A result over any input: one curve for each design, all at one load and speed or each at its own.
 
 import * as parts from "../chart_parts.js";
-import { showFailure } from "../chart_place.js";
+import { draw, showFailure } from "../chart_place.js";
 import * as designs from "../designs.js";
 import { menu, textField } from "../controls.js";
 import { element } from "../dom.js";
@@ -9,10 +9,9 @@ import { linesByValidity, pointAt } from "../figure_parts.js";
 import { yesOrNo } from "../figure_words.js";
 import { inWords } from "../messages.js";
 import { labelIn } from "../fields.js";
-import { draw } from "../plot.js";
 import { numbersOf } from "../results.js";
 import { definition, fieldOf, SECTIONS } from "../schema.js";
-import { linesOf, Problem } from "../server.js";
+import { Latest, linesOf, Problem } from "../server.js";
 import { askPatiently, sendPatiently } from "../long_work.js";
 import { LETTERS, valueAt } from "../state.js";
 import { store } from "../store.js";
@@ -72,7 +71,7 @@ export function setUp(holder) {
   const question = { path: "", output: "screw_torque" };
   /** @type {ReturnType<typeof setTimeout>} */
   let timer;
-  let requests = new AbortController();
+  const requests = new Latest();
   /** @param {Partial<Question>} found */
   const change = (found) => {
     Object.assign(question, found);
@@ -121,9 +120,7 @@ export function setUp(holder) {
 
   async function show() {
     clearTimeout(timer);
-    requests.abort();
-    requests = new AbortController();
-    const { signal } = requests;
+    const signal = requests.begin();
     holder.setAttribute("aria-busy", "true");
     try {
       const runs = await runsOf(signal);

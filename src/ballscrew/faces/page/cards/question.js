@@ -6,14 +6,14 @@ import { button } from "../controls.js";
 import { element } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
 import { answerOfKept, keptJob, runJob } from "../jobs.js";
-import { ask, linesOf, Problem } from "../server.js";
+import { progress } from "../progress.js";
+import { ask, Latest, linesOf, Problem } from "../server.js";
 import { sheetPlace } from "../sheet.js";
 import * as units from "../units.js";
 
 /** Milliseconds after the last key, and until it is said that something is computed. */
 const REST = 400;
 const PATIENCE = 300;
-const SECOND = 1000;
 const NOT_FOUND = 404;
 /** In place of a body that is not on the page any more. */
 const RESUMED = "job ";
@@ -24,7 +24,7 @@ const RESUMED = "job ";
  * nothing where it has shown all of them in a place of its own.
  *
  * @typedef {object} Parts
- * @property {"axis" | "duty" | "warm-up" | "reversal" | "ripple" | "fit" | "service" | "hand-over" | "sensitivity" | "optimise" | "condition"} address
+ * @property {"axis" | "duty" | "warm-up" | "reversal" | "ripple" | "fit" | "service" | "hand-over" | "sensitivity" | "optimise" | "condition" | "select"} address
  * @property {HTMLElement} [result]
  * @property {import("../sheet.js").Beside} [beside] controls beside the rows of its tables
  * @property {(answer: any) => void} [show]
@@ -32,6 +32,8 @@ const RESUMED = "job ";
  * @property {(body: object) => boolean} [isLarge] tests whether a body is too large to keep answers by it
  * @property {boolean} [isShort] tests whether it takes so short that no job is needed
  * @property {() => any} [about] what its answer is shown with, and is not part of it
+ * @property {(job: JobDocument) => void} [news] gets news of its job
+ * @property {() => string} [doing] what is said while it is computed
  */
 
 /**
@@ -39,7 +41,18 @@ const RESUMED = "job ";
  *
  * @param {Parts} parts
  */
-export function question({ address, result: own, beside, show, place, isLarge = () => false, isShort = false, about }) {
+export function question({
+  address,
+  result: own,
+  beside,
+  show,
+  place,
+  isLarge = () => false,
+  isShort = false,
+  about,
+  news,
+  doing,
+}) {
   const sheet = own ? undefined : sheetPlace(address, beside);
   const head = element("div", { hidden: true }, sheet?.head);
   const result = own ?? element("div", { class: "card-result", hidden: true }, sheet?.place);
@@ -47,11 +60,11 @@ export function question({ address, result: own, beside, show, place, isLarge = 
   let answer;
   let system = "";
   const line = element("div", { class: "card-line" });
-  let request = new AbortController();
+  const requests = new Latest();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
-  /** @type {ReturnType<typeof setInterval> | undefined} */
-  let clock;
+  /** Ends what says how far it is. */
+  let end = () => {};
   /** Tells news of the job. @type {(job: JobDocument) => void} */
   let told = () => {};
   /** Bodies that are answered, and that are asked about, as text. */
@@ -73,8 +86,8 @@ export function question({ address, result: own, beside, show, place, isLarge = 
 
   function stop() {
     clearTimeout(timer);
-    clearInterval(clock);
-    request.abort();
+    end();
+    requests.cancel();
     asked = "";
   }
 
@@ -84,18 +97,8 @@ export function question({ address, result: own, beside, show, place, isLarge = 
     for (const place of [head, result]) place.classList.toggle("earlier", isEarlier && answered !== "");
   }
 
-  /** @param {object | undefined} body nothing of one that is not on the page any more @param {number} start */
-  function sayProgress(body, start) {
-    const bar = element("progress", { "aria-label": "computing …" });
-    const seconds = element("span", {}, "computing …");
-    let before = 0;
-    told = (job) => {
-      before = job.before + (job.state === "waiting" ? 1 : 0);
-      if (job.finished < job.total) {
-        bar.max = job.total;
-        bar.value = job.finished;
-      } else bar.removeAttribute("value");
-    };
+  /** @param {object | undefined} body nothing of one that is not on the page any more */
+  function sayProgress(body) {
     const cancel = () => {
       stop();
       mark(false, true);
@@ -106,11 +109,10 @@ export function question({ address, result: own, beside, show, place, isLarge = 
       line.firstElementChild?.append(retry);
       retry.focus();
     };
-    line.replaceChildren(bar, seconds, button("Cancel", cancel), element("span", { class: "small" }, earlier()));
-    clock = setInterval(() => {
-      const passed = Math.round((performance.now() - start) / SECOND);
-      seconds.textContent = before ? `waits for other work … ${passed} s` : `computing … ${passed} s`;
-    }, SECOND);
+    const shown = progress(cancel, doing ? { doing: doing() } : {});
+    end = shown.end;
+    told = shown.told;
+    line.replaceChildren(...shown.parts, element("span", { class: "small" }, earlier()));
   }
 
   /** That what stands below is not of the input as it is; nothing where nothing stands there. */
@@ -133,7 +135,7 @@ export function question({ address, result: own, beside, show, place, isLarge = 
   }
 
   /**
-   * Ask about a body, unless it is answered or asked about already.
+   * Ask about a body, unless it is answered or asked about already; true where its answer stands there.
    *
    * @param {object} body
    * @param {number} rest milliseconds to wait for more keys
@@ -141,13 +143,13 @@ export function question({ address, result: own, beside, show, place, isLarge = 
   function follow(body, rest = REST) {
     showAgain();
     const key = JSON.stringify(body);
-    if (key === asked) return;
+    if (key === asked) return false;
     stop();
     if (key === answered) {
       place([]);
       line.replaceChildren();
       mark(false, false);
-      return;
+      return true;
     }
     const { options } = begin(key, body, rest);
     timer = setTimeout(async () => {
@@ -160,6 +162,7 @@ export function question({ address, result: own, beside, show, place, isLarge = 
         options.signal,
       );
     }, rest);
+    return false;
   }
 
   /** @param {string} key @param {object | undefined} body @param {number} rest */
@@ -167,11 +170,14 @@ export function question({ address, result: own, beside, show, place, isLarge = 
     asked = key;
     told = () => {};
     mark(true, true);
-    request = new AbortController();
-    const { signal } = request;
-    const patience = setTimeout(() => signal.aborted || sayProgress(body, performance.now()), rest + PATIENCE);
+    const signal = requests.begin();
+    const patience = setTimeout(() => signal.aborted || sayProgress(body), rest + PATIENCE);
     signal.addEventListener("abort", () => clearTimeout(patience));
-    return { options: { place: address, signal, told: (/** @type {JobDocument} */ job) => told(job) } };
+    const hear = (/** @type {JobDocument} */ job) => {
+      told(job);
+      if (!signal.aborted) news?.(job);
+    };
+    return { options: { place: address, signal, told: hear } };
   }
 
   /**
@@ -194,13 +200,17 @@ export function question({ address, result: own, beside, show, place, isLarge = 
       line.replaceChildren();
       mark(false, false);
     } catch (error) {
-      if (signal.aborted) return;
-      stop();
-      const faults = error instanceof Problem ? error.faults : [];
-      const others = place(faults);
-      const lines = others && others.length < faults.length ? ["Correct the marked field above."] : [];
-      sayFaults(others ?? [], faults.length ? lines : linesOf(error));
+      if (!signal.aborted) refuse(error);
     }
+  }
+
+  /** Say why there is no answer. @param {unknown} error */
+  function refuse(error) {
+    stop();
+    const faults = error instanceof Problem ? error.faults : [];
+    const others = place(faults);
+    const lines = others && others.length < faults.length ? ["Correct the marked field above."] : [];
+    sayFaults(others ?? [], faults.length ? lines : linesOf(error));
   }
 
   /**
@@ -243,5 +253,5 @@ export function question({ address, result: own, beside, show, place, isLarge = 
     line.replaceChildren(...(isEarlier ? [element("p", {}, earlier())] : []));
   }
 
-  return { head, line, result, follow, compare, resume, stop, showAgain };
+  return { head, line, result, follow, compare, resume, refuse, stop, showAgain };
 }

@@ -1,11 +1,16 @@
-// A nut of one's own: the few numbers of its catalogue page, what is estimated of it, and the case that they make.
+// The card of a nut of one's own: the few numbers of its catalogue page, what is estimated of it, and the design that they
+// make.
 
-import { faultLines } from "./cards/log_parts.js";
-import { lines } from "./cards/records.js";
-import { element, scrolling, table } from "./dom.js";
-import { labelOf } from "./messages.js";
-import { Latest, linesOf, Problem, sendJson } from "./server.js";
-import { currentSystem, formattedIn, inSystem, symbol, withPoint, withPowers } from "./units.js";
+import { menu, primaryButton, textField } from "../controls.js";
+import * as designs from "../designs.js";
+import { byId, element, scrollingTable } from "../dom.js";
+import { labelOf } from "../messages.js";
+import { Latest, linesOf, Problem, sendJson } from "../server.js";
+import { LETTERS } from "../state.js";
+import { store } from "../store.js";
+import { currentSystem, formattedIn, inSystem, symbol, withPoint, withPowers } from "../units.js";
+import { faultLines } from "./log_parts.js";
+import { warningLines } from "./records.js";
 
 /** Kinds of nut in words. @type {Record<string, string>} */
 const KINDS_IN_WORDS = {
@@ -41,73 +46,47 @@ const PLACES = { ball_circle: "pitch_circle_diameter", conformity: "screw_confor
 const NEEDED = 3;
 
 /**
- * The fields of a nut, what is estimated, and the button that hands the case on.
+ * The fields of a nut, what is estimated, and the button that makes a design of it.
  *
  * @param {HTMLElement} holder
- * @param {(tables: import("./state.js").Tables, name: string) => void | Promise<void>} onCase
+ * @returns {import("../cards.js").Card}
  */
-export function ownNut(holder, onCase) {
+export function setUp(holder) {
   const latest = new Latest();
   let system = currentSystem();
   /** @type {OwnNutAnswer | undefined} */
   let answer;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
-  const name = element("input", { id: "own-nut-name", type: "text", maxlength: 60, autocomplete: "off" });
-  const kind = element(
-    "select",
-    { id: "own-nut-nut" },
-    ...KINDS.map((one) => element("option", { value: one }, KINDS_IN_WORDS[one || "unknown"])),
-  );
-  const inputs = FIELDS.map(([field, , , hint]) =>
-    element("input", {
-      id: `own-nut-${field}`,
-      type: "text",
-      inputmode: field === "turns" || field === "preload" ? "text" : "decimal",
-      autocomplete: "off",
-      placeholder: hint || undefined,
-    }),
-  );
-  const result = element("div", { "aria-live": "polite" });
-  const use = element(
-    "button",
-    { type: "button", id: "own-nut-use", class: "primary", disabled: true },
-    "Use this nut",
-  );
-  use.addEventListener("click", async () => {
-    if (answer) await onCase(answer.case, answer.name);
+  const inputs = FIELDS.map(([field, , , placeholder]) => {
+    const inputmode = field === "turns" || field === "preload" ? "text" : "decimal";
+    return textField("", () => {}, { id: `own-nut-${field}`, inputmode, autocomplete: "off", placeholder });
   });
+  const name = textField("", () => {}, { id: "own-nut-name", maxlength: 60, autocomplete: "off" });
+  /** @type {[string, string][]} */
+  const kinds = KINDS.map((one) => [one, KINDS_IN_WORDS[one || "unknown"]]);
+  const kind = menu(kinds, "", () => {}, { id: "own-nut-nut" });
+  const result = element("div", { "aria-live": "polite" });
+  const said = element("p", { "aria-live": "polite" });
+  const use = primaryButton("own-nut-use", "Use this nut", () => answer && add(answer));
+  use.disabled = true;
   const marks = FIELDS.map(() => element("span", { class: "unit" }));
-  const labelled = FIELDS.map(([field, words], place) =>
-    element(
-      "p",
-      { class: "own-nut-field" },
-      element("label", { for: `own-nut-${field}` }, words),
-      inputs[place],
-      marks[place],
-    ),
-  );
-  const rest = [
-    element(
-      "p",
-      { class: "own-nut-field" },
-      element("label", { for: "own-nut-nut" }, "Nut"),
-      kind,
-      element("span", { class: "unit" }),
-    ),
-    element(
-      "p",
-      { class: "own-nut-field" },
-      element("label", { for: "own-nut-name" }, "Name"),
-      name,
-      element("span", { class: "unit" }),
-    ),
-  ];
+  /** @param {HTMLElement} control @param {string} words @param {HTMLElement} [unit] */
+  const line = (control, words, unit = element("span", { class: "unit" })) =>
+    element("p", { class: "own-nut-field" }, element("label", { for: control.id }, words), control, unit);
+  const fields = FIELDS.map(([, words], place) => line(inputs[place], words, marks[place]));
   const form = element(
     "form",
     { class: "own-nut" },
-    element("fieldset", {}, element("legend", {}, "Needed"), ...labelled.slice(0, NEEDED)),
-    element("fieldset", {}, element("legend", {}, "Each of these makes it better"), ...labelled.slice(NEEDED), ...rest),
+    element("fieldset", {}, element("legend", {}, "Needed"), ...fields.slice(0, NEEDED)),
+    element(
+      "fieldset",
+      {},
+      element("legend", {}, "Each of these makes it better"),
+      ...fields.slice(NEEDED),
+      line(kind, "Nut"),
+      line(name, "Name"),
+    ),
   );
   form.addEventListener("submit", (event) => event.preventDefault());
   form.addEventListener("input", () => {
@@ -127,7 +106,17 @@ export function ownNut(holder, onCase) {
     form,
     result,
     element("p", { class: "card-start" }, use),
+    said,
   );
+
+  /** @param {OwnNutAnswer} found */
+  async function add({ case: tables, name: words }) {
+    const left = designs.add([await designs.ofCase(tables, { name: words })]);
+    said.textContent = left
+      ? `The page holds ${LETTERS.length} designs. There was no place for ${words}.`
+      : `Added as design ${LETTERS[store.state.show]}: ${words}.`;
+    if (!left) byId("results").scrollIntoView();
+  }
 
   /** The unit beside each field, which a plain number has. */
   function showUnits() {
@@ -195,6 +184,5 @@ function shown({ estimates, warnings }) {
     return [labelOf(`screw.${PLACES[one.name] ?? one.name}`), value, low, high, one.source];
   });
   const caption = "Estimated: the catalogue does not say";
-  const content = table(caption, headings, rows);
-  return [...lines([], warnings), scrolling(caption, content)];
+  return [...warningLines(warnings), scrollingTable(caption, headings, rows)];
 }
