@@ -97,7 +97,6 @@ DIMENSIONAL_FITS = {
     "formulas.bearing_rolling_moment": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
     "formulas.bearing_sliding_moment": "fit of a bearing maker in millimetres",
     "formulas.inlet_heating_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
-    "formulas.guide_life": "the 50000 is metres, the distance that the rating is for",
     "formulas.palmgren_viscous_moment": "fit in millimetres, mm^2/s and revolutions a minute",
     "nut_losses.ball_drag_force_harris": "the exponent 1.95 of a speed",
     "rheology.pressure_viscosity_estimate": "fit of a pressure coefficient to a power of a viscosity",

@@ -440,19 +440,6 @@ class Duty(ByValue):
         """Change of kinetic and potential energy over the cycle by the parts of the torque, J; zero where it closes."""
         return float(sum(self.energy_by[name] for name in STORED))
 
-    @lazy
-    def mechanical_energy(self) -> Energy:
-        r"""Change of kinetic and potential energy by the states themselves, J.
-
-        :math:`\frac12 (m + J (2 \pi i/P_h)^2) \Delta v^2 + F_g \Delta x`, phase by phase: a jump of the speed between
-        two phases is left out.
-        """
-        turns = 2 * math.pi * self.axis.transmission_ratio / float(self.driven.lead)
-        mass = self.axis.moving_mass + self.axis.turning_inertia * turns**2
-        kinetic = sum(mass * (after**2 - before**2) / 2 for before, after in self.states.speeds_of_ends)
-        rise = self.states.integral(self.states.speed)
-        return float(kinetic + self.axis.gravity_force * rise)
-
     @property
     def summary(self) -> Mapping[str, Any]:
         """The numbers of the cycle by name, SI."""

@@ -45,24 +45,6 @@ def contact_angle_change(
     return (e_a * xp.cos(alpha) - e_r * xp.sin(alpha)) / A
 
 
-def speed_deviation(
-    curvature_ratio: Ratio, contact_angle: Angle, contact_angle_change: Angle, path_shift: Length, path_radius: Length
-) -> Ratio:
-    r"""Deviation of the natural speed of a ball, over that speed, with both contact angles changed alike.
-
-    .. math:: \epsilon = \frac{\gamma}{1 - \gamma} \tan(\alpha) \Delta_\alpha + \frac{e_L}{L (1 - \gamma)}
-
-    The slope of :func:`~ballscrew.physics.equations.kinematics.orbital_speed`, which goes with
-    :math:`L (1 - \gamma)`, where :math:`\gamma L` depends on the angle alone. The shift of the path is the mean of
-    those of the two grooves.
-    """
-    gamma, alpha, Delta_alpha, e_L, L = (
-        curvature_ratio, contact_angle, contact_angle_change, path_shift, path_radius,
-    )  # fmt: skip
-    xp = namespace(gamma, alpha, Delta_alpha, e_L, L)
-    return gamma / (1 - gamma) * xp.tan(alpha) * Delta_alpha + e_L / (L * (1 - gamma))
-
-
 def rms_speed_deviation(
     curvature_ratio: Ratio, contact_angle: Angle, groove_deviation: Length, groove_centre_distance: Length
 ) -> Ratio:

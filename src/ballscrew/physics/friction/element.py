@@ -6,18 +6,12 @@ elements lose and needs to know no more of them.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
-from typing import Any, Protocol
+from typing import Protocol
 
-from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.quantities import Array, Mask, Power
 from ballscrew.basis.records import Record
-from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import FrictionResult
 
 
 class ElementFriction(Protocol):
@@ -55,17 +49,3 @@ class FrictionElement(Protocol):
     def __call__(self, state: OperatingState, /) -> ElementFriction:
         """Friction at a state; load and speed are those of the element, with their signs."""
         ...
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class BallScrewElement(ByValue):
-    """A ball screw with its oil and the model of its friction, as an element."""
-
-    model: FrictionModel
-    screw: BallScrew
-    lubricant: Lubricant
-
-    def __call__(self, state: OperatingState, /) -> FrictionResult:
-        """Friction at a state. Raises :class:`~ballscrew.basis.errors.InputError` as the model does."""
-        given: dict[str, Any] = {"axial_load": state.axial_load, "screw_speed": state.screw_speed}
-        return self.model(self.screw, self.lubricant, **given, temperature=state.temperature)

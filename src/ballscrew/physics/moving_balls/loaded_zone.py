@@ -67,19 +67,6 @@ class Groove:
         waves = np.concatenate([np.cos(multiples), np.sin(multiples)], axis=-1)
         return np.moveaxis(waves @ self.harmonics.reshape(2, -1).T, -1, 0)
 
-    def mirrored(self, angle: Angle) -> Groove:
-        """The groove seen in a mirror across its axis: what lay at an angle lies at ``angle`` less that one."""
-        multiples = angle * np.arange(1, self.harmonics.shape[-1] + 1)
-        cosine, sine = self.harmonics[:, 0], self.harmonics[:, 1]
-        turned = np.stack(
-            [
-                cosine * np.cos(multiples) + sine * np.sin(multiples),
-                cosine * np.sin(multiples) - sine * np.cos(multiples),
-            ],
-            axis=1,
-        )
-        return Groove(turned * np.array([-1.0, 1.0])[:, None, None])
-
 
 class Creep(NamedTuple):
     """What the contacts of a ball do against a speed that is not their own, at some loads, ascending."""

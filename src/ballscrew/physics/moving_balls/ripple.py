@@ -161,10 +161,6 @@ class Ripple:
         """Range of the torque over its mean."""
         return self.peak_to_peak / self.mean if self.mean else math.nan
 
-    def amplitude_of(self, name: str) -> float:
-        """Amplitude of a named order, N m."""
-        return next(float(one.amplitude) for one in self.orders if one.name == name)
-
 
 @accepts_units("ripple")
 def torque_ripple(
