@@ -10,7 +10,7 @@ import pytest
 
 import duty_examples
 from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.cycle_life import CycleLife, cubic_mean
+from ballscrew.axis.duty_cycle.drive_sizing import CycleLife, cubic_mean
 from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.supports.guide import CarriedMass, GuidedTable

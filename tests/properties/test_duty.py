@@ -10,14 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
 from ballscrew.axis.duty_cycle.brake import brake_of
-from ballscrew.axis.duty_cycle.cycle_life import CycleLife
-from ballscrew.axis.duty_cycle.drive import MotorCheck
+from ballscrew.axis.duty_cycle.drive_sizing import CycleLife, MotorCheck, VendorRule
 from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.duty_cycle.duty_band import duty_band, numbers_of_cycle
-from ballscrew.axis.duty_cycle.motor import Motor
-from ballscrew.axis.duty_cycle.vendor_rule import VendorRule
 from ballscrew.axis.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
 from ballscrew.basis.errors import InputError
 from support.equations import mechanical_energy

@@ -9,7 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.physics.components.screw import SINGLE_NUT
-from ballscrew.physics.equations.ripple import ball_pass_harmonic, ball_pass_order
+from ballscrew.physics.equations.ball_chain import ball_pass_harmonic, ball_pass_order
 from ballscrew.physics.moving_balls.chain import Circuit, chain_run
 from ballscrew.physics.moving_balls.loaded_zone import loaded_zone
 from ballscrew.physics.moving_balls.ripple import (

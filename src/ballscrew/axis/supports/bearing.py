@@ -16,9 +16,8 @@ from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Mask, 
 from ballscrew.basis.records import Record
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut, SingleNut
-from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.operating_state import ElementFriction, FrictionElement, OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction.element import ElementFriction, FrictionElement
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
@@ -84,10 +83,10 @@ def sizes_fault(section: str, bore: Any, outside_diameter: Any) -> list[Fault]:
 class SupportBearing(ByValue):
     r"""An angular-contact or axial angular-contact ball bearing on the shaft: one row, or a preloaded pair of rows.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement`: called with an operating state, whose load is the
-    axial one of the bearing, it returns the friction torque about the shaft, by mechanism. The contacts are those of
-    the screw, in a plane: :math:`z Q \sin\alpha = F` for one row; the two sides of a preloaded pair are braced as the
-    halves of a double nut. ``rows`` is one, or an even number, half of them on each side.
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement`: called with an operating state, whose load
+    is the axial one of the bearing, it returns the friction torque about the shaft, by mechanism. The contacts are
+    those of the screw, in a plane: :math:`z Q \sin\alpha = F` for one row; the two sides of a preloaded pair are braced
+    as the halves of a double nut. ``rows`` is one, or an even number, half of them on each side.
 
     What catalogues leave out is assumed, and no source stands behind it: balls of 0.3 (D − d) that fill 0.9 of the
     circle (of axial angular-contact bearings they are smaller and more: give them where they are known), a conformity
@@ -298,8 +297,8 @@ PLACES: Mapping[str, str] = {
 class MountedBearing(ByValue):
     """The bearing, or the set of bearings, at one end of the shaft, with its share of the axial load of the screw.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement`, called with the load of the whole screw. What a
-    shaft is stretched with loads both ends and is no part of that: it belongs into the preload.
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement`, called with the load of the whole screw.
+    What a shaft is stretched with loads both ends and is no part of that: it belongs into the preload.
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, and for an unknown place.
     """
 

@@ -46,15 +46,15 @@ GUIDES, SEALS = "guides", "guide seals"
 class LinearGuide(ByValue):
     r"""The carriages of a table on their rails: :math:`F = \sum \mu \left|P_i\right| + f`.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement` whose effort is a force along the rail, N. Called
-    with a state, its load is that of all carriages, which share it evenly, and its ``screw_speed`` stands for the
-    speed along the rail, m/s; :meth:`under` takes the load of each carriage, as
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement` whose effort is a force along the rail, N.
+    Called with a state, its load is that of all carriages, which share it evenly, and its ``screw_speed`` stands for
+    the speed along the rail, m/s; :meth:`under` takes the load of each carriage, as
     :class:`~ballscrew.axis.supports.guide.GuidedTable` has them.
 
     The coefficient of catalogues is 0.002 to 0.003 with balls (Thomson2024, Rollon2020) and 0.001 to 0.002 with rollers
     (Thomson2024), at a load of a fifth of the dynamic rating and without preload (NB2024). Seals have 2 N to 5 N a
     carriage (NB2024), light ones 0.15 N to 1 N by size (Rollon2020;
-    :func:`~ballscrew.axis.supports.catalogue_rows.guide_rows`).
+    :func:`~ballscrew.axis.supports.element_laws.guide_rows`).
     Preload, oil, fresh grease and temperature are in neither number and add to both.
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
@@ -200,11 +200,11 @@ STRAIGHT = 1e4
 class ContactGuide(ByValue):
     r"""The carriages of a table by their balls, which roll between rail and carriage at half its speed.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement` whose effort is a force along the rail, N, called as
-    :class:`~ballscrew.LinearGuide`. The contacts are those of the screw on a path without curvature: two for each ball,
-    in rows braced against each other (:math:`z Q \sin\alpha = P`, half of the rows against each direction of the load),
-    or four, of balls too big for a pointed arch. With two contacts a ball rolls about an axis along its contacts'
-    tangent and does not spin; with four it must slide. Under load the contacts climb the grooves.
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement` whose effort is a force along the rail, N,
+    called as :class:`~ballscrew.LinearGuide`. The contacts are those of the screw on a path without curvature: two for
+    each ball, in rows braced against each other (:math:`z Q \sin\alpha = P`, half of the rows against each direction of
+    the load), or four, of balls too big for a pointed arch. With two contacts a ball rolls about an axis along its
+    contacts' tangent and does not spin; with four it must slide. Under load the contacts climb the grooves.
 
     What catalogues leave out is assumed: a conformity of 0.52, the roughness of the paper, and no rows that carry less
     than others. A load across the rail counts as one that presses. Left out: what the return path and fresh grease

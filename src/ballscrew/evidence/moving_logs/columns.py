@@ -12,7 +12,7 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Info, Power, Quantity, Torque, Unit, quantities_of
 from ballscrew.evidence.moving_logs.moving_log import quantities
-from ballscrew.files.tables import decimals
+from ballscrew.files.tables import cells
 from ballscrew.files.tables.headings import (
     NO_COLUMN,
     Column,
@@ -138,7 +138,7 @@ def moving_layout(path: Path, records: Sequence[Record], flags: Mapping[str, str
         {},
         above[-1].line,
         len(records[start].cells),
-        decimals.evidence(texts_in(good, body)),
+        cells.evidence(texts_in(good, body)),
         dates,
         rest,
         words,

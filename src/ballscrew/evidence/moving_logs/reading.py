@@ -33,10 +33,9 @@ from ballscrew.files.tables.headings import NO_COLUMN
 from ballscrew.files.tables.sheets import Record, unreadable
 from ballscrew.files.torque_logs import columns
 from ballscrew.files.torque_logs.columns import Layout
-from ballscrew.files.torque_logs.matlab_files import is_matlab, variables
 from ballscrew.files.torque_logs.motion import Floats
 from ballscrew.files.torque_logs.reading import NumberReader, read
-from ballscrew.files.torque_logs.sources import source_of
+from ballscrew.files.torque_logs.sources import is_matlab, source_of, variables
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 #: Rows of text that are read at a time, and most rows of a moving log.

@@ -15,12 +15,11 @@ from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
 from ballscrew.faces.sheets.report_blocks import Table
 from ballscrew.faces.sheets.report_blocks import value as value_of
-from ballscrew.physics.components.data_sheet import DataSheet
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.oil_grades import TEMPERATURE, OilState, nominal_oil
+from ballscrew.physics.components.oil_grades import TEMPERATURE, DataSheet, OilState, nominal_oil
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
-from ballscrew.physics.friction.law_names import LAWS, coefficients
+from ballscrew.physics.friction.model import LAWS, coefficients
 from ballscrew.physics.sizing.installation import Limits
 
 #: Where a value is from, in a word; :data:`FROM_IN_WORDS` says what is meant.

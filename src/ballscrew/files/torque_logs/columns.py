@@ -16,7 +16,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.files.tables import decimals
+from ballscrew.files.tables import cells
 from ballscrew.files.tables.headings import (
     NEEDS_UNIT,
     NO_COLUMN,
@@ -219,7 +219,7 @@ def layout(path: Path, records: Sequence[Record], flags: Mapping[str, str]) -> L
         constants,
         above[-1].line,
         len(records[start].cells),
-        decimals.evidence(texts_in(good, body)),
+        cells.evidence(texts_in(good, body)),
         dates,
         rest,
         frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell),
