@@ -30,7 +30,7 @@ from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.alternatives import BOUNDARY_FRICTION
 from ballscrew.evidence.service.condition_means import Chart, Means, Trend, points_of
 from ballscrew.evidence.service.posterior import FRICTION, MODEL_ERROR, PRELOAD
-from ballscrew.evidence.service.preload_change import CERTAIN, Verdict
+from ballscrew.evidence.service.preload_change import Verdict, verdict_of
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 
 if TYPE_CHECKING:
@@ -444,8 +444,7 @@ class Condition:
     @property
     def verdict(self) -> Verdict:
         """``"lost"`` or ``"kept"`` where that has a probability of :data:`CERTAIN`, otherwise ``"open"``."""
-        probability = self.probability_of_loss
-        return "lost" if probability >= CERTAIN else "kept" if probability <= 1 - CERTAIN else "open"
+        return verdict_of(self.probability_of_loss)
 
     @property
     def warnings(self) -> list[str]:

@@ -55,6 +55,11 @@ VERDICTS = {
 }
 
 
+def verdict_of(probability_of_loss: float) -> Verdict:
+    """The verdict on a preload that is lost with a probability."""
+    return "lost" if probability_of_loss >= CERTAIN else "kept" if probability_of_loss <= 1 - CERTAIN else "open"
+
+
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class PreloadChange:
     """Result of :func:`preload_change`."""
@@ -93,8 +98,7 @@ class PreloadChange:
     @property
     def verdict(self) -> Verdict:
         """``"lost"`` or ``"kept"`` where that has a probability of :data:`CERTAIN`, otherwise ``"open"``."""
-        probability = self.probability_of_loss
-        return "lost" if probability >= CERTAIN else "kept" if probability <= 1 - CERTAIN else "open"
+        return verdict_of(self.probability_of_loss)
 
     @property
     def warnings(self) -> list[str]:

@@ -246,13 +246,24 @@ class LogSource(Protocol):
         ...
 
 
-class SheetLog:
-    """A log as a spreadsheet: all of its rows are one piece."""
+class _WholeFile:
+    """A log whose rows are one piece."""
 
     empty_bytes = 0
 
     def __init__(self, path: Path) -> None:
         self._path = path
+
+    def digest(self) -> str:
+        """SHA-256 of the file."""
+        return hashlib.sha256(self._path.read_bytes()).hexdigest()
+
+
+class SheetLog(_WholeFile):
+    """A log as a spreadsheet: all of its rows are one piece."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
         self.found: Sequence[Record] = records(path, is_heading)
 
     def pieces(self, layout: Layout, rows: int) -> Iterator[Piece]:  # noqa: ARG002  (of LogSource)
@@ -261,18 +272,12 @@ class SheetLog:
         cells = {heading.place: _column(body, heading.place) for heading in layout.headings.values()}
         yield Piece(cells, np.array([row.line for row in body], dtype=np.int64), False)
 
-    def digest(self) -> str:
-        """SHA-256 of the file."""
-        return hashlib.sha256(self._path.read_bytes()).hexdigest()
 
-
-class MatlabLog:
+class MatlabLog(_WholeFile):
     """A log as a file of MATLAB: the variables are the columns, and their rows one piece."""
 
-    empty_bytes = 0
-
     def __init__(self, path: Path, begin: bytes) -> None:
-        self._path = path
+        super().__init__(path)
         arrays, _ = variables(path, begin)
         sizes = {name: values.size for name, values in arrays.items()}
         if len(set(sizes.values())) > 1:
@@ -290,10 +295,6 @@ class MatlabLog:
         """The rows of the arrays."""
         cells = {heading.place: self._columns[heading.place] for heading in layout.headings.values()}
         yield Piece(cells, np.arange(1, 1 + self._rows), False)
-
-    def digest(self) -> str:
-        """SHA-256 of the file."""
-        return hashlib.sha256(self._path.read_bytes()).hexdigest()
 
 
 def source_of(path: Path, file: BinaryIO, done: Callable[[int, int], None] | None) -> LogSource:
