@@ -36,6 +36,17 @@ Bore = Annotated[
 OutsideDiameter = Annotated[
     Length, Info("D", "outside diameter of the bearing", "mm", above=0, hint="lengths are positive", usual=(3e-3, 1.0))
 ]
+Rows = Annotated[
+    Count,
+    Info("i", "rows of balls, half of them against each direction", at_least=1, whole=True, hint="1, 2 or 4"),
+]
+PairPreload = Annotated[
+    Force,
+    Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N for none", usual=(0.0, 1e5)),
+]
+BallRoughness = Annotated[
+    Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="0.02 um to 0.1 um")
+]
 SealTorque = Annotated[
     Torque,
     Info("M_W", "torque of the seals of the bearing", "N m", at_least=0, hint="0 N m without", usual=(0.0, 10.0)),
@@ -71,12 +82,15 @@ def faults_of_arrays(section: str, part: Any, *names: str) -> list[Fault]:
     ]
 
 
-def sizes_fault(section: str, bore: Any, outside_diameter: Any) -> list[Fault]:
-    """Fault of an outside diameter that does not exceed the bore."""
-    if outside_diameter > bore:
-        return []
-    given = shown(outside_diameter, "m")
-    return [Fault(f"{section}.outside_diameter", "must exceed the bore", given, "give bore and outside diameter")]
+def faults_of_sizes(section: str, bearing: Any) -> list[Fault]:
+    """Faults of an outside diameter that does not exceed the bore, and of rows that are no pairs."""
+    faults: list[Fault] = []
+    if not bearing.outside_diameter > bearing.bore:
+        given, remedy = shown(bearing.outside_diameter, "m"), "give bore and outside diameter"
+        faults.append(Fault(f"{section}.outside_diameter", "must exceed the bore", given, remedy))
+    if bearing.rows > 1 and bearing.rows % 2:
+        faults.append(Fault(f"{section}.rows", "must be one or even", f"{bearing.rows:g}", "give 1, 2 or 4"))
+    return faults
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -112,14 +126,8 @@ class SupportBearing(ByValue):
     ]
     #: The oil of the bearing.
     lubricant: Lubricant
-    rows: Annotated[
-        Count,
-        Info("i", "rows of balls, half of them against each direction", at_least=1, whole=True, hint="1, 2 or 4"),
-    ] = 2
-    preload: Annotated[
-        Force,
-        Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N for none", usual=(0.0, 1e5)),
-    ] = 0.0
+    rows: Rows = 2
+    preload: PairPreload = 0.0
     ball_diameter: Annotated[
         Length | None,
         Info("d_w", "ball diameter", "mm", above=0, hint="0.3 (D - d) where it is not known", usual=(5e-4, 0.1)),
@@ -134,9 +142,7 @@ class SupportBearing(ByValue):
     race_roughness: Annotated[
         Length, Info(r"\sigma_r", "RMS roughness of the races", "um", above=0, hint="0.05 um to 0.3 um")
     ] = 0.3e-6
-    ball_roughness: Annotated[
-        Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="0.02 um to 0.1 um")
-    ] = 0.08e-6
+    ball_roughness: BallRoughness = 0.08e-6
     seal_torque: SealTorque = 0.0
     #: A model of the friction of screws, for its laws of contact; by default the reference.
     model: FrictionModel | None = None
@@ -147,9 +153,7 @@ class SupportBearing(ByValue):
             "bearing", self, "bore", "outside_diameter", "rows", "ball_diameter", "balls"
         )
         if not faults:
-            faults += sizes_fault("bearing", self.bore, self.outside_diameter)
-            if self.rows > 1 and self.rows % 2:
-                faults.append(Fault("bearing.rows", "must be one or even", f"{self.rows:g}", "give 1, 2 or 4"))
+            faults += faults_of_sizes("bearing", self)
             if self.rows == 1 and np.any(self.preload > 0):
                 remedy = "give rows = 2, or the spring's force as a load"
                 faults.append(Fault("bearing.preload", "one row braces nothing", shown(self.preload, "N"), remedy))

@@ -10,7 +10,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from ballscrew.axis.supports import formulas
-from ballscrew.axis.supports.bearing import CONFORMITY, bearing_model, rows_of_balls
+from ballscrew.axis.supports.bearing import CONFORMITY, BallRoughness, bearing_model, rows_of_balls
 from ballscrew.axis.supports.makers_bearing import MakersFriction
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, accepts_units, faults_of, raise_if_any
@@ -257,9 +257,7 @@ class ContactGuide(ByValue):
     groove_roughness: Annotated[
         Length, Info(r"\sigma_r", "RMS roughness of the grooves", "um", above=0, hint="0.1 um to 0.3 um")
     ] = 0.3e-6
-    ball_roughness: Annotated[
-        Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="0.02 um to 0.1 um")
-    ] = 0.08e-6
+    ball_roughness: BallRoughness = 0.08e-6
     seal_force: Annotated[
         Force,
         Info("f_s", "force of the seals of one carriage", "N", at_least=0, hint="2 N to 5 N", usual=(0.0, 200.0)),

@@ -9,24 +9,23 @@ from typing import Annotated, Any
 import numpy as np
 
 from ballscrew.axis.supports import formulas
-from ballscrew.axis.supports.bearing import Bore, OutsideDiameter, SealTorque, faults_of_arrays, sizes_fault
+from ballscrew.axis.supports.bearing import (
+    Bore,
+    OutsideDiameter,
+    PairPreload,
+    Rows,
+    SealTorque,
+    faults_of_arrays,
+    faults_of_sizes,
+)
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
-from ballscrew.basis.quantities import Array, Count, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
+from ballscrew.basis.quantities import Array, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
 from ballscrew.basis.records import Record
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.sizing.checks import loads_of_halves
-
-Rows = Annotated[
-    Count,
-    Info("i", "rows of balls, half of them against each direction", at_least=1, whole=True, hint="1, 2 or 4"),
-]
-PairPreload = Annotated[
-    Force,
-    Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N: none", usual=(0.0, 1e5)),
-]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -204,9 +203,7 @@ def _faults(section: str, bearing: SKFBearing | PalmgrenBearing) -> list[Fault]:
     faults = faults or faults_of_arrays(section, bearing, "bore", "outside_diameter", "rows", "preload")
     if faults:
         return faults
-    faults = sizes_fault(section, bearing.bore, bearing.outside_diameter)
-    if bearing.rows > 1 and bearing.rows % 2:
-        faults.append(Fault(f"{section}.rows", "must be one or even", f"{bearing.rows:g}", "give 1, 2 or 4"))
+    faults = faults_of_sizes(section, bearing)
     if bearing.rows == 1 and bearing.preload > 0:
         given = shown(bearing.preload, "N")
         faults.append(Fault(f"{section}.preload", "one row braces nothing", given, "give rows = 2"))
