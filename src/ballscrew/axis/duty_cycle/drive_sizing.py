@@ -1,8 +1,7 @@
-"""Mean loads and life over a cycle: each flank of the screw, or each half of a preloaded nut, by itself.
+"""A drive against its duty: the life of the screw, the torques and the speed of the motor, and what catalogues compute.
 
-A duty against its motor: torque for ever, torque for a short time, and speed.
-
-Torques as catalogues compute them in their worked examples, to be held against those by mechanics.
+Mean loads and life are of each flank of the screw, or of each half of a preloaded nut, by itself. A motor has a torque
+for ever and one for a short time. Torques of the worked examples of catalogues are held against those by mechanics.
 """
 
 from __future__ import annotations

@@ -1,9 +1,4 @@
-"""Texts within XML and HTML.
-
-Lines for people, no longer than a terminal is wide.
-
-Numbers in texts as people write them, without the notation of programs.
-"""
+"""Texts for people: within XML and HTML, in lines no longer than a terminal is wide, and with numbers written out."""
 
 from __future__ import annotations
 

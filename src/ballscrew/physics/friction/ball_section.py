@@ -4,9 +4,7 @@ The middle of the ball is the origin. The first axis lies along the screw, posit
 positive load presses on; the second one points away from the axis of the screw. Everything is elementwise: numbers,
 arrays, and values that are recorded.
 
-The flanks that the most loaded ball touches: what a picture shows of the loads of all balls.
-
-Elementwise: numbers, arrays, and values that are recorded.
+Of the loads of all balls a picture shows the flanks that the most loaded one touches.
 """
 
 from __future__ import annotations

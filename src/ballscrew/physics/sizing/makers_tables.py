@@ -1,8 +1,7 @@
-"""Kinds of sources of formulas and limits: read, recalled or estimated, and the words for them beside a verdict.
+"""Tables by make, with the kinds of their sources: read, recalled or estimated, and the words for these in a verdict.
 
-Factors for accuracy of the rigidity of a nut, by make, with the kind of their source.
-
-Limits of the DN value by make and by how the balls return, as makers print them (``data/speed_limits.toml``).
+Factors for accuracy of the rigidity of a nut; and limits of the DN value by how the balls return, as makers print them
+(``data/speed_limits.toml``).
 """
 
 from __future__ import annotations
