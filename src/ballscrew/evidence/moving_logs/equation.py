@@ -1,6 +1,6 @@
 r"""The equation of motion of an axis at the rows of a log, both sides through one low-pass.
 
-.. math:: F = M a + F_g + \operatorname{sign}(v) \\cdot F_f(|v|, \dots)
+.. math:: F = M a + F_g + \operatorname{sign}(v) \cdot F_f(|v|, \dots)
 
 Least squares whose residuals follow each other: covariance, blocks, and resampling of blocks.
 
