@@ -122,13 +122,13 @@ def test_a_child_begins_with_nothing():
     """In a process of its own, as other libraries warn of a fork in this one."""
     program = (
         "import os\n"
-        "from ballscrew.compiler.kernels import buffers\n"
-        f"array = buffers.aligned_array({LARGE}, float)\n"
+        "from ballscrew.compiler.kernels import kernel\n"
+        f"array = kernel.aligned_array({LARGE}, float)\n"
         "del array\n"
-        "assert buffers._kept\n"
+        "assert kernel._kept\n"
         "child = os.fork()\n"
         "if child == 0:\n"
-        "    os._exit(3 if buffers._kept else 0)\n"
+        "    os._exit(3 if kernel._kept else 0)\n"
         "print('child:', os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))"
     )
     outcome = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
