@@ -12,7 +12,7 @@ import hashlib
 import importlib.util
 import io
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple, Protocol
 
@@ -278,23 +278,23 @@ class MatlabLog(_WholeFile):
 
     def __init__(self, path: Path, begin: bytes) -> None:
         super().__init__(path)
-        arrays, _ = variables(path, begin)
-        sizes = {name: values.size for name, values in arrays.items()}
-        if len(set(sizes.values())) > 1:
-            listed = ", ".join(f"{name} {size}" for name, size in sizes.items())
-            raise InputError(Fault(path.name, "has columns of different lengths", listed, "give every column each row"))
-        self._columns = list(arrays.values())
-        top = [Record(1 + row, [values[row] for values in self._columns]) for row in range(min(5, self._rows))]
-        self.found: Sequence[Record] = [Record(0, list(arrays)), *top]
-
-    @property
-    def _rows(self) -> int:
-        return self._columns[0].size
+        #: Numbers that are no columns, by name.
+        self.numbers: Mapping[str, float]
+        self._columns, self.numbers = variables(path, begin)
+        rows = min(5, *(values.size for values in self._columns.values()))
+        top = [Record(1 + row, [values[row] for values in self._columns.values()]) for row in range(rows)]
+        self.found: Sequence[Record] = [Record(0, list(self._columns)), *top]
 
     def pieces(self, layout: Layout, rows: int) -> Iterator[Piece]:  # noqa: ARG002  (of LogSource)
-        """The rows of the arrays."""
-        cells = {heading.place: self._columns[heading.place] for heading in layout.headings.values()}
-        yield Piece(cells, np.arange(1, 1 + self._rows), False)
+        """The rows of the arrays. Raises for columns of different lengths."""
+        places = sorted(heading.place for heading in layout.headings.values())
+        every = list(self._columns.items())
+        sizes = {every[place][0]: every[place][1].size for place in places}
+        if len(set(sizes.values())) > 1:
+            listed = ", ".join(f"{name} {size}" for name, size in sizes.items())
+            remedy = "give every column each row"
+            raise InputError(Fault(self._path.name, "has columns of different lengths", listed, remedy))
+        yield Piece({place: every[place][1] for place in places}, np.arange(1, 1 + max(sizes.values())), False)
 
 
 def source_of(path: Path, file: BinaryIO, done: Callable[[int, int], None] | None) -> LogSource:
