@@ -16,7 +16,6 @@ from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq, minimize_scalar
 
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError
@@ -232,6 +231,8 @@ _ROUNDING, _GAIN = 1e-12, 1e-7
 
 def sign_changes(states: MotionStates, values: Numbers) -> list[float]:
     """The instants within phases at which a quantity changes its sign, s; ``values`` is it at the states."""
+    from scipy.optimize import brentq  # for duties only
+
     result: list[float] = []
     known = np.abs(values[np.isfinite(values)])
     least = _ROUNDING * float(np.max(known, initial=0.0))
@@ -247,6 +248,8 @@ def sign_changes(states: MotionStates, values: Numbers) -> list[float]:
 
 def largest_within(states: MotionStates, values: Numbers) -> list[float]:
     """The instants at which a quantity is larger than at all states of its part of a phase, and than zero, s."""
+    from scipy.optimize import minimize_scalar  # for duties only
+
     result: list[float] = []
     for time, own in _parts(states, values):
         at = int(np.argmax(own))

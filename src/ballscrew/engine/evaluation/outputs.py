@@ -9,10 +9,9 @@ import dataclasses
 import functools
 import math
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import map_blocks
@@ -29,6 +28,9 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
 from ballscrew.physics.laws.contact import Contact, RaceState
 from ballscrew.physics.solvers.load_distribution import BallLoads
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: The fields of the operating point, which every sweep needs.
 OPERATION = tuple(fields_of(OperatingState))
@@ -191,6 +193,8 @@ def ends(values: NDArray[Any]) -> NDArray[Any]:
 
 def axis_of(section: str, name: str, values: Any, quantity: Quantity) -> xr.DataArray | Fault:
     """Values as a labelled array: a sequence gets a dimension of its own name."""
+    import xarray as xr  # for evaluations only
+
     where = f"{section}.{name}"
     numbers = without_unit(where, values.data if isinstance(values, xr.DataArray) else values, quantity.unit)
     if isinstance(numbers, Fault):

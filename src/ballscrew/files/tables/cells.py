@@ -13,7 +13,6 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-import pandas
 from numpy.typing import NDArray
 
 from ballscrew.basis import units
@@ -195,7 +194,6 @@ def _converted(where: str, number: float, text: str, heading: Heading) -> float 
     return heading.offset + heading.scale * number
 
 
-pd: Any = pandas  # its own types know little of what comes out
 #: The decimal marks of a file with decimal commas only.
 COMMA = frozenset(",")
 #: Marks of a missing value.
@@ -233,6 +231,9 @@ def is_missing(cell: Any) -> bool:
 
 def _plain_numbers(cells: NDArray[Any], decimal: frozenset[str]) -> NDArray[np.float64]:
     """The cells that are plain numbers, whatever their decimal mark is, as long as it can be no other; else NaN."""
+    import pandas  # for columns of text only
+
+    pd: Any = pandas  # its own types know little of what comes out
     texts = pd.Series([cell if isinstance(cell, str) else None for cell in cells], dtype=object)
     decimal = decimal or evidence(cell for cell in cells[:_EXAMINED] if isinstance(cell, str))
     if decimal == COMMA:
