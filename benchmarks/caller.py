@@ -28,7 +28,7 @@ import numpy as np
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.compiler.kernels import buffers
+from ballscrew.compiler.kernels import kernel
 from ballscrew.engine.evaluation import recordings
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
@@ -78,11 +78,11 @@ def large_sweep(points: int) -> dict[str, float]:
         counts["call"].append(faults() - before)
         checked = Evaluation.of(plan(later=True), "compiled")
         times["checked"].append(seconds(functools.partial(checked.fill, touched, everything)))
-        buffers.forget()
+        kernel.forget()
         before = faults()
         times["fresh"].append(seconds(lambda: evaluation.fill(evaluation.empty(points), everything)))
         counts["fresh"].append(faults() - before)
-        buffers.forget()
+        kernel.forget()
         times["keeping"].append(seconds(sweep))  # into new memory, as if all before were kept
     return {
         "points": points,

@@ -31,9 +31,8 @@ from numpy.typing import NDArray
 
 import ballscrew as bs
 from ballscrew.basis.arrays import map_blocks, processors
-from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import kernel_text
-from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.kernel import Kernel, aligned_array
 from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.derivatives import slopes_of

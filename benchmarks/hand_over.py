@@ -18,7 +18,7 @@ import numpy as np
 
 import ballscrew as bs
 from ballscrew.exports.hand_over import export_job
-from ballscrew.exports.programs import c99, fmu, interpreter, program_file
+from ballscrew.exports.programs import c99, fmu, interpreter
 from ballscrew.exports.programs.two_levels import two_levels
 from ballscrew.exports.subject import HandOver
 from ballscrew.questions.shared.text_tables import markdown_table
@@ -108,7 +108,7 @@ def rows(presets: tuple[str, ...], most: int) -> Iterator[tuple[str, ...]]:
                 places = ctypes.c_void_p(given.ctypes.data), ctypes.c_void_p(results.ctypes.data)
                 call = min(seconds(lambda many=many, places=(*places, count): many(*places)) for _ in range(3)) / count
             worst, others = difference(dict(zip(one.output_names, results.T, strict=True)), wanted)
-            run = interpreter.Interpreted(program_file.program_file(one))
+            run = interpreter.Interpreted(interpreter.program_file(one))
             read = min(seconds(lambda run=run, points=points: run.at(points)) for _ in range(3)) / count
             size = len(bs.hand_over(model, screw, oil, to="fmu").files[f"{fmu.IDENTIFIER}.fmu"])
             source = len(c99.source(one))

@@ -18,7 +18,7 @@ import numpy as np
 import ballscrew as bs
 from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
-from ballscrew.files.tables.column_names import YES
+from ballscrew.files.tables.headings import YES
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.own_nut import LARGEST_PITCH, OwnNut, completed
 from ballscrew.physics.sizing.ratings import ratings_of

@@ -22,7 +22,7 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import LARGEST_PRESSURE
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce
 from ballscrew.physics.laws.friction import ZhouHoeprich
-from ballscrew.physics.solvers import strips
+from ballscrew.physics.solvers import slip
 from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.slip import curvature_slip
 from ballscrew.questions.shared.text_tables import markdown_table
@@ -290,10 +290,8 @@ def as_markdown(table: Table, cases: Box) -> str:
 
 def main() -> None:
     """Print what was asked for; ``--strips`` and ``--aligned`` are those of a contact."""
-    options = asked(
-        __doc__, cases=600, seed=2005, no_speed=False, strips=strips.NUMBER_OF_STRIPS, aligned=strips.ALIGNED
-    )
-    strips.STRIPS, strips.ALIGNED = strips.strips_of(options.strips), options.aligned
+    options = asked(__doc__, cases=600, seed=2005, no_speed=False, strips=slip.NUMBER_OF_STRIPS, aligned=slip.ALIGNED)
+    slip.STRIPS, slip.ALIGNED = slip.strips_of(options.strips), options.aligned
     cases, tables = compared(options.cases, options.seed)
     rates = None if options.no_speed else speed()
     if options.json:

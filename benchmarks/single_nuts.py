@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import ballscrew as bs
-from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
+from ballscrew.engine.uncertainty.uncertain_value import default_uncertainties
 from ballscrew.evidence.validation.entries import Entry, Point
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.solvers.load_distribution import preload_growth

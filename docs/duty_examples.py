@@ -13,9 +13,8 @@ from types import SimpleNamespace
 from typing import Any
 
 from ballscrew.axis.duty_cycle.axis import GRAVITY, Axis
-from ballscrew.axis.duty_cycle.cycle_life import CycleLife
+from ballscrew.axis.duty_cycle.drive_sizing import CycleLife, VendorRule
 from ballscrew.axis.duty_cycle.duty import Duty, duty
-from ballscrew.axis.duty_cycle.vendor_rule import VendorRule
 from ballscrew.axis.motion.profiles import Motion, Segment, Segments, Trapezoid
 from ballscrew.physics.components.nut import SingleNut
 from ballscrew.questions.shared.text_tables import markdown_table

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
 from ballscrew.axis.motion.profiles import Segment, Trapezoid
 from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, STATICS
@@ -20,15 +19,14 @@ from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.schema.fields import example_of
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES
-from ballscrew.physics.components.data_sheet import DataSheet
 from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.nut import Bodies, Scatter
-from ballscrew.physics.components.oil_grades import grades
+from ballscrew.physics.components.oil_grades import DataSheet, grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.physics.sizing.ratings import NUTS
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 

@@ -9,7 +9,7 @@ from typing import Any
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.units import shown
 from ballscrew.cases.schema.case_schema import MODELS, coefficients_of, name_of_law
-from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.model import LAWS
 from ballscrew.questions.shared.text_tables import markdown_table
 
 #: Purpose of each slot.

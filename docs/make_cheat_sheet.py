@@ -11,8 +11,7 @@ from pathlib import Path
 import typst
 from typer.main import get_command
 
-from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, fields_of

@@ -21,7 +21,7 @@ import ballscrew as bs
 from ballscrew.axis.thermal.friction_map import COLDEST
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
-from ballscrew.physics.friction.starvation import differs
+from ballscrew.physics.friction.validity import differs
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared.text_tables import markdown_table

@@ -8,7 +8,7 @@ import math
 import ballscrew as bs
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut
-from ballscrew.physics.equations import friction, hertz, kinematics, preload, transmission
+from ballscrew.physics.equations import friction, hertz, kinematics, nut_losses, transmission
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.friction import arana_traction
 from effect_study.cases import CASES, CATALOGUE, PAPER
@@ -49,7 +49,7 @@ def numbers() -> dict[str, str]:
         "t_offset": f"{offset:.4f}",
         "t_slow_film": f"{2**0.68:.2f}",
         "t_heavy_film": f"{100 * (1 - 2**-0.073):.0f}",
-        "t_lift": f"{float(preload.lift_off_load(1.0)):.2f}",
+        "t_lift": f"{float(nut_losses.lift_off_load(1.0)):.2f}",
         "t_plain": f"{plain:.2f}",
         "t_plain_torque": f"{float(CATALOGUE.result(REFERENCE).efficiency) / plain:.1f}",
         "t_centre": f"{1e3 * float(_centre_distance()):.2f}",

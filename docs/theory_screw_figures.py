@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from ballscrew.evidence.papers.olaru2005.closures import repairs
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.equations import life, preload, slip, transmission
+from ballscrew.physics.equations import life, nut_losses, slip, transmission
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.solvers.line_slip import creep_of_lines, pure_rolling_lines
@@ -164,7 +164,7 @@ def _efficiencies(panel: Axes) -> None:
 def halves() -> Figure:
     """The loads of the halves of a double nut over their deflection, and over the load."""
     x = np.linspace(-1.2, 1.6, 281)
-    forward, backward = preload.forward_half_load(1.0, np.maximum(x, -1)), preload.backward_half_load(1.0, x)
+    forward, backward = nut_losses.forward_half_load(1.0, np.maximum(x, -1)), nut_losses.backward_half_load(1.0, x)
     figure, (springs, shares) = charts.new_figure(
         mathtext(
             "Two halves of a double nut as springs of Hertz contacts; loads in units of the preload, displacement in "
@@ -175,7 +175,7 @@ def halves() -> Figure:
     springs.plot(x, forward, color=charts.BLUE, label="half that is loaded")
     springs.plot(x, backward, color=charts.RED, ls="--", label="half that is relieved")
     at = 0.5
-    low, high = float(preload.backward_half_load(1.0, at)), float(preload.forward_half_load(1.0, at))
+    low, high = float(nut_losses.backward_half_load(1.0, at)), float(nut_losses.forward_half_load(1.0, at))
     springs.annotate("", (at, high), (at, low), arrowprops={"arrowstyle": "<->", "color": charts.INK})
     springs.text(at + 0.06, (low + high) / 2, "load on the nut F", fontsize=9, va="center")
     springs.plot(0, 1, "o", color=charts.INK, markersize=5)
@@ -190,12 +190,12 @@ def halves() -> Figure:
         legend="upper left",
     )
     x = np.linspace(0, 1.4, 281)
-    loads = preload.forward_half_load(1.0, x), preload.backward_half_load(1.0, x)
+    loads = nut_losses.forward_half_load(1.0, x), nut_losses.backward_half_load(1.0, x)
     outside = loads[0] - loads[1]
     shares.plot(outside, loads[0], color=charts.BLUE, label="half that is loaded")
     shares.plot(outside, loads[1], color=charts.RED, ls="--", label="half that is relieved")
     shares.plot(outside, outside, color=charts.GREY, linewidth=1, label="without preload")
-    shares.axvline(float(preload.lift_off_load(1.0)), color=charts.GREY, linestyle=":", linewidth=1.2)
+    shares.axvline(float(nut_losses.lift_off_load(1.0)), color=charts.GREY, linestyle=":", linewidth=1.2)
     framed(
         shares,
         "load on the nut / preload (1)",

@@ -22,10 +22,10 @@ import numpy as np
 
 import ballscrew as bs
 from ballscrew.axis.duty_cycle.duty import Duty
-from ballscrew.axis.thermal.equilibrium import equilibrium
 from ballscrew.axis.thermal.friction_map import FrictionMap
 from ballscrew.axis.thermal.network import Network, network_of
 from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.warm_up import equilibrium
 from ballscrew.axis.thermal.warm_up_band import WarmUpBand
 from ballscrew.questions.shared.text_tables import markdown_table
 

@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 
 import ballscrew as bs
 from ballscrew.exports import hand_over
-from ballscrew.exports.programs.interpreter import Interpreted, runs_here
-from ballscrew.exports.programs.program_file import program_file
+from ballscrew.exports.programs.interpreter import Interpreted, program_file, runs_here
 from ballscrew.exports.subject import HandOver
 
 COUNT, SECONDS = 40_000, 120.0

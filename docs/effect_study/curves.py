@@ -10,13 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.physics.equations import mixed_lubrication, slip
+from ballscrew.physics.equations import friction, slip
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import SMALLEST_ELASTIC_REGIME_PARAMETER
+from ballscrew.physics.laws.contact import aihara_rolling, biboulet_houpert_rolling, houpert_rolling, olaru_rolling
 from ballscrew.physics.laws.friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
 from ballscrew.physics.laws.protocols import RollingLaw
-from ballscrew.physics.laws.rolling import aihara_rolling, biboulet_houpert_rolling, houpert_rolling, olaru_rolling
 from ballscrew.physics.solvers.line_slip import pure_rolling_lines
 from effect_study.cases import DECAYS, PAPER, RPM, Case
 
@@ -146,12 +146,11 @@ def share_curves() -> ShareCurves:
     """Laws of load sharing; Greenwood and Tripp at the paper's screw contact."""
     lam = np.linspace(0.0, 4.0, 401)
     shares = {
-        f"Zhou and Hoeprich, B {B:g}, C {C:g}": mixed_lubrication.asperity_load_share_zhou_hoeprich(lam, B, C)
-        for B, C in DECAYS
+        f"Zhou and Hoeprich, B {B:g}, C {C:g}": friction.asperity_load_share_zhou_hoeprich(lam, B, C) for B, C in DECAYS
     }
     at_film = dataclasses.replace(PAPER.result(MODELS["reference"]).screw, film_parameter=lam)
     tripp = GreenwoodTrippSharing(boundary_friction_coefficient=1.0, full_film_friction_coefficient=0.0)
-    shares["Bălan 2015, cut at 2"] = mixed_lubrication.asperity_load_share_balan(lam)
+    shares["Bălan 2015, cut at 2"] = friction.asperity_load_share_balan(lam)
     # with one for the asperities and nothing for the film, the coefficient is the share
     shares["Greenwood and Tripp, 1.92 GPa"] = np.asarray(tripp(at_film))
     sharing, printed = LoadSharing(), PAPER_FRICTION

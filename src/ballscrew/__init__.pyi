@@ -1,11 +1,11 @@
 # The public names and their modules, for type checkers and for __init__.py, which loads each name at its first use.
 
 from ballscrew.axis.duty_cycle.axis import Axis as Axis
+from ballscrew.axis.duty_cycle.axis import Motor as Motor
 from ballscrew.axis.duty_cycle.duty import Duty as Duty
 from ballscrew.axis.duty_cycle.duty import duty as duty
+from ballscrew.axis.duty_cycle.duty import to_and_fro as to_and_fro
 from ballscrew.axis.duty_cycle.duty_band import duty_band as duty_band
-from ballscrew.axis.duty_cycle.motor import Motor as Motor
-from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro as to_and_fro
 from ballscrew.axis.motion.profiles import SCurve as SCurve
 from ballscrew.axis.motion.profiles import Segment as Segment
 from ballscrew.axis.motion.profiles import Segments as Segments
@@ -14,9 +14,9 @@ from ballscrew.axis.motion.profiles import Trapezoid as Trapezoid
 from ballscrew.axis.supports.bearing import SupportBearing as SupportBearing
 from ballscrew.axis.supports.guide import ContactGuide as ContactGuide
 from ballscrew.axis.supports.guide import LinearGuide as LinearGuide
-from ballscrew.axis.thermal.equilibrium import steady_heat as steady_heat
 from ballscrew.axis.thermal.surroundings import Surroundings as Surroundings
 from ballscrew.axis.thermal.warm_sweep import warm_sweep as warm_sweep
+from ballscrew.axis.thermal.warm_up import steady_heat as steady_heat
 from ballscrew.axis.thermal.warm_up import warm_up as warm_up
 from ballscrew.axis.thermal.warm_up_band import warm_up_band as warm_up_band
 from ballscrew.basis.errors import ImplausibleInput as ImplausibleInput
@@ -26,8 +26,8 @@ from ballscrew.cases.case_files.lubricants import oils as oils
 from ballscrew.cases.screw_tables.catalogue import screws as screws
 from ballscrew.engine.evaluation.derivatives import derivatives as derivatives
 from ballscrew.engine.evaluation.evaluator import evaluator as evaluator
-from ballscrew.engine.sweeps.reversal import reversal as reversal
 from ballscrew.engine.sweeps.store_check import verify as verify
+from ballscrew.engine.sweeps.sweep import reversal as reversal
 from ballscrew.engine.sweeps.sweep import sweep as sweep
 from ballscrew.engine.uncertainty.bands import band as band
 from ballscrew.engine.uncertainty.distributions import LogNormal as LogNormal
@@ -46,12 +46,11 @@ from ballscrew.evidence.service.condition import condition as condition
 from ballscrew.evidence.service.condition_values import Condition as Condition
 from ballscrew.evidence.service.preload_change import PreloadChange as PreloadChange
 from ballscrew.evidence.service.preload_change import preload_change as preload_change
-from ballscrew.evidence.service.preload_of_torque import preload_of_torque as preload_of_torque
+from ballscrew.evidence.service.preload_change import preload_of_torque as preload_of_torque
 from ballscrew.exports.export import Export as Export
 from ballscrew.exports.hand_over import hand_over as hand_over
 from ballscrew.files.torque_logs.torque_log import TorqueLog as TorqueLog
 from ballscrew.files.torque_logs.torque_series import TorqueSeries as TorqueSeries
-from ballscrew.physics.components.data_sheet import DataSheet as DataSheet
 from ballscrew.physics.components.materials import Lubricant as Lubricant
 from ballscrew.physics.components.materials import Material as Material
 from ballscrew.physics.components.nut import Bodies as Bodies
@@ -61,6 +60,7 @@ from ballscrew.physics.components.nut import OffsetLeadNut as OffsetLeadNut
 from ballscrew.physics.components.nut import OversizeBallNut as OversizeBallNut
 from ballscrew.physics.components.nut import Scatter as Scatter
 from ballscrew.physics.components.nut import SingleNut as SingleNut
+from ballscrew.physics.components.oil_grades import DataSheet as DataSheet
 from ballscrew.physics.components.operating_state import OperatingState as OperatingState
 from ballscrew.physics.components.screw import BallScrew as BallScrew
 from ballscrew.physics.friction.breakaway import Breakaway as Breakaway
@@ -68,13 +68,13 @@ from ballscrew.physics.friction.breakaway import breakaway as breakaway
 from ballscrew.physics.friction.model import FrictionModel as FrictionModel
 from ballscrew.physics.friction.model import nut_friction as nut_friction
 from ballscrew.physics.friction.result import FrictionResult as FrictionResult
-from ballscrew.physics.laws.film import HamrockDowson as HamrockDowson
+from ballscrew.physics.laws.contact import HamrockDowson as HamrockDowson
 from ballscrew.physics.laws.friction import ZhouHoeprich as ZhouHoeprich
 from ballscrew.physics.laws.nut_losses import Seals as Seals
-from ballscrew.physics.moving_balls.across_groove import OffLineBalls as OffLineBalls
-from ballscrew.physics.moving_balls.across_groove import off_line_balls as off_line_balls
 from ballscrew.physics.moving_balls.chain import MovingChain as MovingChain
 from ballscrew.physics.moving_balls.chain import moving_chain as moving_chain
+from ballscrew.physics.moving_balls.reversal import OffLineBalls as OffLineBalls
+from ballscrew.physics.moving_balls.reversal import off_line_balls as off_line_balls
 from ballscrew.physics.sizing.catalogue import catalogue as catalogue
 from ballscrew.physics.sizing.own_nut import OwnNut as OwnNut
 from ballscrew.physics.sizing.own_nut import own_nut as own_nut

@@ -12,12 +12,11 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.friction.model import presets
-from ballscrew.physics.laws import ball_chain, friction, rolling
+from ballscrew.physics.friction.model import LAWS, presets
+from ballscrew.physics.laws import ball_chain, contact, friction
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.slip import curvature_slip
 
@@ -119,7 +118,7 @@ def test_all_in_one(tables):
     )
     assert model.inlet.inlet_film_ratio == 3
     assert isinstance(model.full_film, friction.EyringTraction)
-    assert model.rolling is rolling.houpert_rolling
+    assert model.rolling is contact.houpert_rolling
     assert model.elastic_resistance.loss_factor == 0.01
     assert isinstance(model.ball_force, ball_chain.ProportionalBallForce)
     assert model.slip is curvature_slip

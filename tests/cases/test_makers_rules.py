@@ -6,7 +6,7 @@ import pytest
 
 from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.cases.case_files.case import NO_ORIGINS
-from ballscrew.cases.case_files.makers_rules import by_rules, subject_of
+from ballscrew.cases.case_files.named_calibration import by_rules, subject_of
 from ballscrew.questions.run import compute
 from ballscrew.questions.run.compute import run
 from support.commands import ROOT

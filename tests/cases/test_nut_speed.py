@@ -7,8 +7,8 @@ import pytest
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import json_schema
-from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Normal
+from ballscrew.engine.uncertainty.uncertain_value import NORMAL_95
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.sweep import table
 from ballscrew.questions.sweep.compute import plan, sweep

@@ -8,7 +8,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, descriptions, nut_tables
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.ratings import ratings_of
@@ -66,8 +66,8 @@ def test_ratings_are_of_the_balls_that_carry(written):
     assert half.dynamic / full.dynamic == pytest.approx(0.5 ** (2 / 3), rel=1e-12)
     assert half.static / full.static == pytest.approx(0.5, rel=1e-12)
     case = case_file.load(written, ["nut.spacer_balls=true"])
-    assert nut_tables.ratings(case.screw, case.origins.row) == pytest.approx(half)
-    assert nut_tables.ratings(case_file.load(written).screw, case.origins.row) == pytest.approx(full)
+    assert nut_tables.screw_ratings(case.screw, case.origins.row) == pytest.approx(half)
+    assert nut_tables.screw_ratings(case_file.load(written).screw, case.origins.row) == pytest.approx(full)
 
 
 def test_tables_of_screws_have_a_column(rows):

@@ -6,11 +6,11 @@ import tomllib
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
+from ballscrew.axis.supports.element_laws import guide_rows, support_units
 from ballscrew.axis.supports.makers_bearing import KnownBearing, SKFBearing
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.faces.web.bodies import case_of
 

@@ -9,11 +9,11 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.cases.case_files import case_file, case_text, descriptions, fitted_case, inputs
+from ballscrew.cases.case_files import case_file, case_text, descriptions, fitted_case
 from ballscrew.cases.case_files.case import Origins
-from ballscrew.cases.schema import law_import
+from ballscrew.cases.schema import case_schema
 from ballscrew.cases.schema.case_schema import json_schema
-from ballscrew.cases.schema.option_faults import in_options
+from ballscrew.cases.schema.reader import in_options
 from ballscrew.cases.screw_tables.catalogue import assumed, seal_source
 from ballscrew.cases.screw_tables.catalogue import case_text as text_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
@@ -83,10 +83,10 @@ def test_settings_go_into_their_tables():
 def test_inputs_have_what_is_given_and_nothing_else():
     """Limits but for the usual ones, and of the mounting what is known: all in SI."""
     plain = dataclasses.replace(built(), installation=None)
-    assert "installation" not in inputs.inputs(plain)
-    assert "limits" not in inputs.inputs(plain)
+    assert "installation" not in descriptions.inputs(plain)
+    assert "limits" not in descriptions.inputs(plain)
     mounted = Installation(unsupported_length=1.2, ends=Ends.FIXED_FREE, bearing_rigidity=4e8)
-    found = inputs.inputs(dataclasses.replace(plain, installation=mounted, limits=Limits(static_safety=3.0)))
+    found = descriptions.inputs(dataclasses.replace(plain, installation=mounted, limits=Limits(static_safety=3.0)))
     assert found["installation"] == {
         "unsupported_length": 1.2,
         "ends": "fixed-free",
@@ -180,13 +180,13 @@ class OwnLaw:
 )
 def test_numbers_of_a_law_of_ones_own(table, where):
     faults = []
-    assert law_import.with_plain_numbers("law", OwnLaw, table, faults) == table
+    assert case_schema.with_plain_numbers("law", OwnLaw, table, faults) == table
     assert [fault.where for fault in faults] == where
 
 
 def test_a_function_has_no_numbers():
     faults = []
-    assert law_import.with_plain_numbers("law", len, {"share": 1.0}, faults) == {}
+    assert case_schema.with_plain_numbers("law", len, {"share": 1.0}, faults) == {}
     assert [fault.where for fault in faults] == ["law.share"]
 
 

@@ -14,10 +14,10 @@ from ballscrew.faces.web import openapi
 from ballscrew.faces.web.server import application
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.friction.starvation import STARVED
-from ballscrew.physics.sizing.check_table import CHECKS
-from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.physics.friction.model import LAWS
+from ballscrew.physics.friction.validity import STARVED
+from ballscrew.physics.sizing.checks import CHECKS
+from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.questions.select.need import SHORT_NAMES
 from ballscrew.questions.select.requirements import Requirements
 from support.rules import for_each

@@ -3,7 +3,7 @@
 import math
 
 import starvation_tables as tables
-from ballscrew.physics.friction.starvation import differs
+from ballscrew.physics.friction.validity import differs
 
 
 def test_in_the_cold_every_answer_has_two_torques_and_in_a_warm_hall_one():

@@ -8,7 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.exports.programs import interpreter
-from ballscrew.exports.programs.program_file import program_file
+from ballscrew.exports.programs.interpreter import program_file
 
 pytestmark = pytest.mark.skipif(not interpreter.runs_here(), reason="the prebuilt library is for Linux on x86-64")
 #: In a process of its own, as a library that reads address zero ends it: the status of each call, and times.

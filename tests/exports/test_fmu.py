@@ -12,7 +12,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.exports.programs import fmu, interpreter
-from ballscrew.exports.programs.program_file import program_file
+from ballscrew.exports.programs.interpreter import program_file
 
 from .compiled import library, needs_a_compiler
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.exports.programs import interpreter, program_file
+from ballscrew.exports.programs import interpreter
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.components.operating_state import NOTHING
 
@@ -95,7 +95,7 @@ def test_compiled_near_zero_is_the_model(handed_over, tmp_path, preset, nut):
 def test_interpreted_near_zero_is_the_model(handed_over, preset, nut):
     handed = handed_over(getattr(bs.FrictionModel, preset)(), NUTS[nut])
     points = points_near_zero(handed, 200 if "elastic" in nut else 3000)
-    compare_with_model(handed, interpreter.Interpreted(program_file.program_file(handed)).at(points), points)
+    compare_with_model(handed, interpreter.Interpreted(interpreter.program_file(handed)).at(points), points)
 
 
 @needs_the_library
@@ -104,7 +104,7 @@ def test_interpreted_near_zero_is_the_model(handed_over, preset, nut):
 def test_every_nut_interpreted_near_zero_is_the_model(handed_over, nut):
     handed = handed_over(bs.FrictionModel.reference(), NUTS[nut])
     points = points_near_zero(handed, 400 if "elastic" in nut else 20_000, seed=4)
-    compare_with_model(handed, interpreter.Interpreted(program_file.program_file(handed)).at(points), points)
+    compare_with_model(handed, interpreter.Interpreted(interpreter.program_file(handed)).at(points), points)
 
 
 @needs_the_library

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from ballscrew.physics.equations import film, hertz, rheology, rolling
+from support.equations import rigid_regime_share_ellipse
 
 POINTS = json.loads((Path(__file__).parents[1] / "data" / "contact_points.json").read_text(encoding="utf-8"))
 STEEL = 2.26e11
@@ -47,7 +48,7 @@ def test_rolling_moment_of_biboulet_and_houpert(contact, groups):
     E, R_x, _, _, U, W, _, kappa, beta = groups
     F_I = rolling.rigid_rolling_force_ellipse(E, R_x, contact["semi_major_axis"], beta, kappa, U)
     F_E = rolling.elastic_rolling_force_ellipse(E, R_x, contact["semi_major_axis"], beta, U)
-    F_R = rolling.blended_rolling_force(F_I, F_E, rolling.rigid_regime_share_ellipse(beta, kappa, W, U))
+    F_R = rolling.blended_rolling_force(F_I, F_E, rigid_regime_share_ellipse(beta, kappa, W, U))
     # the value was computed with a few digits more of the radii than its conditions have
     assert F_R * R_x == pytest.approx(MOMENTS["Houpert"], rel=2e-5)
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 import ballscrew as bs
-from ballscrew.physics.equations import rheology, traction
+from ballscrew.physics.equations import friction, rheology
 from ballscrew.physics.laws.friction import arana_traction
 
 #: Friction by Arana2019's law at slips of 0.1, 0.3, 1 and 3 %, computed elsewhere and rounded to three decimals, by the
@@ -60,7 +60,7 @@ def test_eyring_stress_of_a_paraffinic_oil(celsius, stress):
     """As stated at 1.2 GPa, to two digits."""
     oil = bs.Lubricant.from_grade("M100 paraffinic", celsius + 273.15)
     alpha = rheology.secant_pressure_viscosity_coefficient(oil.viscosity, oil.viscosity_under(1.2e9), 1.2e9)
-    assert traction.arana_eyring_stress(oil.limiting_shear_coefficient, alpha) == pytest.approx(stress, abs=0.05e6)
+    assert friction.arana_eyring_stress(oil.limiting_shear_coefficient, alpha) == pytest.approx(stress, abs=0.05e6)
 
 
 @pytest.mark.parametrize(

@@ -11,18 +11,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.equations import (
-    friction,
-    geometry,
-    hertz,
-    kinematics,
-    mixed_lubrication,
-    rheology,
-    slip,
-    transmission,
-)
+from ballscrew.physics.equations import friction, geometry, hertz, kinematics, rheology, slip, transmission
+from ballscrew.physics.laws.contact import exact_hertz
 from ballscrew.physics.laws.frame import helix_frame
-from ballscrew.physics.laws.hertz import exact_hertz
 from ballscrew.physics.laws.nut_losses import JISDrag
 
 DATA = Path(__file__).parents[1] / "data"
@@ -235,13 +226,13 @@ def zhou_share(i):
             break
         at_film = SimpleNamespace(film_parameter=middle, full_film_friction_coefficient=None)
         low, high = (middle, high) if law(at_film) > 0.02 else (low, middle)
-    w = mixed_lubrication.asperity_load_share_zhou_hoeprich(i["lam"], i["B"], i["C"])
+    w = friction.asperity_load_share_zhou_hoeprich(i["lam"], i["B"], i["C"])
     assert friction.asperity_friction_coefficient(i["lam"], 1.0, i["B"], i["C"]) == w
     return {"w": w, "lam_at_mu_002": high}
 
 
 def balan_share(i):
-    return {"w": mixed_lubrication.asperity_load_share_balan(i["lam"])}
+    return {"w": friction.asperity_load_share_balan(i["lam"])}
 
 
 def coupled_slip(i):

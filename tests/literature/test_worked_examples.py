@@ -10,15 +10,15 @@ import pytest
 
 import duty_examples
 from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.cycle_life import CycleLife, cubic_mean
+from ballscrew.axis.duty_cycle.drive_sizing import CycleLife, cubic_mean
 from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.motion.profiles import Trapezoid
-from ballscrew.axis.supports import formulas
 from ballscrew.axis.supports.guide import CarriedMass, GuidedTable
 from ballscrew.physics.components.materials import STEEL_DENSITY
 from ballscrew.physics.components.nut import SingleNut
 from ballscrew.physics.equations import life, rigidity, shaft, transmission
 from ballscrew.physics.sizing.installation import Ends, Limits
+from support.equations import guide_life
 
 EXAMPLES = json.loads((Path(__file__).parent.parent / "data" / "worked_examples.json").read_text(encoding="utf-8"))
 #: Young's modulus that THK takes, Pa, and a revolution a minute, rad/s.
@@ -161,7 +161,7 @@ def test_four_carriages_of_a_table():
     ways = np.array([2 * even, away, away, slows, slows])
     means = [cubic_mean(of_carriage, ways) for of_carriage in equivalent.T]
     assert means == pytest.approx(printed["mean_N"], rel=1e-3)
-    lives = [formulas.guide_life(given["dynamic_rating_N"], mean, given["load_factor"]) / 1e3 for mean in means]
+    lives = [guide_life(given["dynamic_rating_N"], mean, given["load_factor"]) / 1e3 for mean in means]
     assert lives == pytest.approx(printed["life_km"], rel=0.01)
 
 

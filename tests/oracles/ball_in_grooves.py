@@ -18,7 +18,7 @@ from scipy.optimize import brentq, root
 from ballscrew.basis.quantities import Force
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import deflection, geometry, hertz
+from ballscrew.physics.equations import geometry, hertz, rigidity
 
 Field = NDArray[np.float64]
 #: Lengths are in micrometres while they are solved for.
@@ -59,7 +59,7 @@ class HalfNut:
             kappa = hertz.ellipticity(k)
             integrals = hertz.elliptic_integrals(kappa)
             c = hertz.approach_coefficient(k, kappa, integrals.K, integrals.E)
-            stiffness.append(float(deflection.contact_load_deflection(c, screw.equivalent_modulus(race), R_x)))
+            stiffness.append(float(rigidity.contact_load_deflection(c, screw.equivalent_modulus(race), R_x)))
         bar = spacer = 0.0
         if bodies is not None:
             whole = bodies.sized(screw)

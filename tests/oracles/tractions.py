@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
 from ballscrew.basis.quantities import Info, Length, Pressure, PressureCoefficient, Ratio, Viscosity
-from ballscrew.physics.equations import rheology, traction
+from ballscrew.physics.equations import friction, rheology
 
 #: Values at the points of a contact, or components of a vector.
 Field: TypeAlias = NDArray[np.float64]
@@ -117,8 +117,8 @@ class Eyring(_Film):
 
     def stress(self, pressure: Field, slip: Field) -> Field:
         """Shear stress, Pa."""
-        rate = traction.film_shear_rate(slip, self.film_thickness)
-        return traction.eyring_shear_stress(self._film_viscosity(pressure), rate, self.eyring_stress)
+        rate = friction.film_shear_rate(slip, self.film_thickness)
+        return friction.eyring_shear_stress(self._film_viscosity(pressure), rate, self.eyring_stress)
 
     def slope(self, pressure: Field, slip: Field) -> Field:
         """Derivative of the stress by the sliding speed, Pa s/m."""
@@ -151,9 +151,9 @@ class LimitingShear(_Film):
 
     def stress(self, pressure: Field, slip: Field) -> Field:
         """Shear stress, Pa."""
-        rate = traction.film_shear_rate(slip, self.film_thickness)
-        limit = traction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
-        return traction.bair_winer_shear_stress(self._film_viscosity(pressure), rate, limit)
+        rate = friction.film_shear_rate(slip, self.film_thickness)
+        limit = friction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
+        return friction.bair_winer_shear_stress(self._film_viscosity(pressure), rate, limit)
 
     def slope(self, pressure: Field, slip: Field) -> Field:
         """Derivative of the stress by the sliding speed, Pa s/m."""
@@ -163,12 +163,12 @@ class LimitingShear(_Film):
     def potential(self, pressure: Field, slip: Field) -> Field:
         """Integral of the stress over the sliding speed, W/m²."""
         scale = self._yield_speed(pressure)
-        limit = traction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
+        limit = friction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
         return limit * (slip + scale * np.expm1(-slip / scale))
 
     def _yield_speed(self, pressure: Field) -> Field:
         """Sliding speed at which a Newtonian film would reach the limiting stress."""
-        limit = traction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
+        limit = friction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
         return limit * self.film_thickness / self._film_viscosity(pressure)
 
 

@@ -8,14 +8,13 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.records import utilisation
 from ballscrew.compiler.kernels import kernel
-from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import kernel_text
+from ballscrew.compiler.kernels.kernel import aligned_array
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.physics.sizing.check_table import loads_at_point
-from ballscrew.physics.sizing.checks import checks
+from ballscrew.physics.sizing.checks import checks, loads_at_point
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, judged, outputs
 

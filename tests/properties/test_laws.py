@@ -8,8 +8,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.laws import ball_chain, friction, inlet, rolling
+from ballscrew.physics.friction.model import LAWS
+from ballscrew.physics.laws import ball_chain, contact, friction
 from ballscrew.physics.laws.conditions import Motion
 from ballscrew.physics.laws.contact import ContactLaws, rolling_contact
 from ballscrew.physics.solvers.line_slip import line_slip
@@ -97,7 +97,7 @@ def test_an_imposed_offset_belongs_to_curvature_alone():
 # -- contacts to try them on -----------------------------------------------------------------------
 
 
-def contact(load, rpm, oil=OIL, **changed):
+def contact_at(load, rpm, oil=OIL, **changed):
     """The paper's contact at the screw, under a load of its own; at rest it does not slide either."""
     omega = np.asarray(rpm) * RPM
     motion = Motion(0.01 * omega, 0.35 * omega, 3e-5 * omega)
@@ -113,13 +113,13 @@ SPEEDS = np.array([0.0, 1e-6, 1e-3, 1.0, 30.0, 300.0, 1000.0, 5000.0])
 
 
 def test_the_inlet_is_cool_at_rest_and_heats_with_speed():
-    warm = inlet.Inlet()(contact(100.0, SPEEDS))
+    warm = contact.Inlet()(contact_at(100.0, SPEEDS))
     assert warm.film[0] == 1
     assert np.all(np.diff(warm.film) < 0)
     assert np.all((warm.film > 0) & (warm.film <= 1))
     assert warm.film[1] == pytest.approx(1, abs=1e-3)
     # flooded: the rolling force falls as the film does
-    flooded = inlet.Inlet(replenishment_constant=0.0)(contact(100.0, SPEEDS))
+    flooded = contact.Inlet(replenishment_constant=0.0)(contact_at(100.0, SPEEDS))
     assert flooded.rolling == pytest.approx(flooded.film, rel=1e-4)
     # oil that comes back too late lowers it further, the more the faster
     replenished = warm.rolling / flooded.rolling
@@ -129,14 +129,14 @@ def test_the_inlet_is_cool_at_rest_and_heats_with_speed():
 
 def test_a_thick_oil_heats_more_and_a_conductive_one_less():
     film = [
-        inlet.Inlet()(contact(100.0, 600.0, dataclasses.replace(OIL, **changed))).film
+        contact.Inlet()(contact_at(100.0, 600.0, dataclasses.replace(OIL, **changed))).film
         for changed in ({}, {"viscosity": 2 * OIL.viscosity}, {"thermal_conductivity": 2 * OIL.thermal_conductivity})
     ]
     assert film[1] < film[0] < film[2]
 
 
 def test_a_starved_inlet_rolls_more_easily():
-    factors = [inlet.Inlet(S, replenishment_constant=0.0)(contact(100.0, 600.0)) for S in (2.0, 10.0, 100.0, 1e6)]
+    factors = [contact.Inlet(S, replenishment_constant=0.0)(contact_at(100.0, 600.0)) for S in (2.0, 10.0, 100.0, 1e6)]
     assert np.all(np.diff([f.rolling for f in factors]) > 0)
     assert len({float(f.film) for f in factors}) == 1
     assert factors[-1].rolling == pytest.approx(factors[-1].film, rel=1e-4)
@@ -155,7 +155,7 @@ SHARING = {
 @pytest.mark.parametrize("name", SHARING)
 def test_sharing_goes_from_boundary_to_full_film(name):
     law, film_parameter = SHARING[name], np.linspace(0, 12, 4801)
-    conditions = contact(100.0, 600.0, full_film=None)
+    conditions = contact_at(100.0, 600.0, full_film=None)
     mu = law(dataclasses.replace(conditions, film_parameter=film_parameter))
     least, most = law.full_film_friction_coefficient, law.boundary_friction_coefficient
     assert np.all((mu >= least) & (mu <= most))
@@ -169,7 +169,7 @@ def test_sharing_goes_from_boundary_to_full_film(name):
 
 @pytest.mark.parametrize("name", SHARING)
 def test_the_film_has_the_friction_of_its_own_slot(name):
-    law, conditions = SHARING[name], contact(100.0, 600.0)
+    law, conditions = SHARING[name], contact_at(100.0, 600.0)
 
     def friction(film_parameter, full_film):
         return law(
@@ -188,7 +188,7 @@ def test_asperities_carry_less_of_a_heavier_load():
     """Until they touch as closely as the theory goes; and without a film they carry all, whatever the load."""
     law = friction.GreenwoodTrippSharing()
     loads = np.array([1e-3, 1e-2, 0.1, 1.0, 100.0, 1e4])
-    conditions = contact(loads, 600.0)
+    conditions = contact_at(loads, 600.0)
     mu = law(dataclasses.replace(conditions, film_parameter=1.0))
     assert np.all(np.diff(mu) <= 0)
     assert mu[-1] < mu[0] < law.boundary_friction_coefficient
@@ -209,11 +209,11 @@ FULL_FILM = {
 @pytest.mark.parametrize("name", FULL_FILM)
 def test_friction_of_the_film_is_bounded_and_starts_from_nothing(name):
     law = FULL_FILM[name]
-    mu = law(contact(100.0, SPEEDS))
+    mu = law(contact_at(100.0, SPEEDS))
     assert mu[0] == 0
     limit = getattr(law, "limiting_shear_coefficient", bs.Lubricant(viscosity=0.1).limiting_shear_coefficient)
     assert np.all((mu >= 0) & (mu <= limit * (1 + 1e-12)))
-    assert np.all(law(contact(0.0, SPEEDS)) == 0)
+    assert np.all(law(contact_at(0.0, SPEEDS)) == 0)
 
 
 @pytest.mark.parametrize("name", FULL_FILM)
@@ -227,17 +227,17 @@ def test_friction_of_the_film_is_finite_anywhere(name):
 # -- rolling ---------------------------------------------------------------------------------------
 
 ROLLING = {
-    "olaru": rolling.olaru_rolling,
-    "biboulet and houpert": rolling.biboulet_houpert_rolling,
-    "houpert": rolling.houpert_rolling,
-    "aihara": rolling.aihara_rolling,
+    "olaru": contact.olaru_rolling,
+    "biboulet and houpert": contact.biboulet_houpert_rolling,
+    "houpert": contact.houpert_rolling,
+    "aihara": contact.aihara_rolling,
 }
 
 
 @pytest.mark.parametrize("name", ROLLING)
 def test_rolling_force_vanishes_at_rest_and_without_load(name):
     law, load = ROLLING[name], np.array([0.0, 1e-9, 1e-3, 1.0, 100.0])
-    force = law(contact(load[:, None], SPEEDS))
+    force = law(contact_at(load[:, None], SPEEDS))
     assert np.all(np.isfinite(force))
     assert np.all(force[0] == 0)
     assert np.all(force[:, 0] == 0)
@@ -247,7 +247,7 @@ def test_rolling_force_vanishes_at_rest_and_without_load(name):
 
 
 def test_rolling_laws_agree_in_size():
-    force = [law(contact(100.0, 600.0)) for law in ROLLING.values()]
+    force = [law(contact_at(100.0, 600.0)) for law in ROLLING.values()]
     assert max(force) < 2.5 * min(force)
 
 
@@ -255,11 +255,11 @@ def test_rolling_laws_agree_in_size():
 
 
 def test_hysteresis_is_in_proportion_to_its_loss():
-    conditions = contact(100.0, 600.0)
-    once, twice = (rolling.Hysteresis(loss)(conditions) for loss in (0.02, 0.04))
+    conditions = contact_at(100.0, 600.0)
+    once, twice = (contact.Hysteresis(loss)(conditions) for loss in (0.02, 0.04))
     assert twice == 2 * once == pytest.approx(3 / 16 * 0.04 * 100 * conditions.semi_minor_axis, rel=1e-12)
     # the paper's fit for steel corresponds to a loss of 0.02 to 0.04
-    model = dataclasses.replace(reference, elastic_resistance=rolling.Hysteresis(0.03))
+    model = dataclasses.replace(reference, elastic_resistance=contact.Hysteresis(0.03))
     found, fit = (
         some(SCREW, OIL, axial_load=4000.0, screw_speed=60.0).contributions["elastic_hysteresis"]
         for some in (model, reference)
@@ -285,9 +285,9 @@ def test_force_between_balls_may_grow_with_the_load():
 @pytest.mark.parametrize(
     ("law", "coefficient", "value", "where"),
     [
-        (rolling.Hysteresis, "loss_factor", -0.1, "model.elastic_resistance"),
+        (contact.Hysteresis, "loss_factor", -0.1, "model.elastic_resistance"),
         (ball_chain.ProportionalBallForce, "share_of_load", -0.1, "model.ball_force"),
-        (inlet.Inlet, "inlet_film_ratio", 0.0, "model.inlet"),
+        (contact.Inlet, "inlet_film_ratio", 0.0, "model.inlet"),
         (friction.LoadSharing, "boundary_friction_coefficient", -0.1, "model.friction"),
         (friction.BalanSharing, "full_film_friction_coefficient", math.nan, "model.friction"),
         (friction.GreenwoodTrippSharing, "asperity_radius", 0.0, "model.friction"),

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.makers_rules import by_rules
+from ballscrew.cases.case_files.named_calibration import by_rules
 from ballscrew.physics.sizing.rules import Subject, drags
 from support.commands import ROOT
 from support.strategies import floats, powers

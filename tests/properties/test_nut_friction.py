@@ -10,8 +10,7 @@ import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.friction.balls import MECHANISMS, ball_friction, idle_ball_friction
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.friction.model import nut_friction
+from ballscrew.physics.friction.model import LAWS, nut_friction
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.laws.friction import LoadSharing
 from ballscrew.physics.laws.nut_losses import Recirculation, Seals

@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.friction.element import BallScrewElement
 from support.strategies import MODELS
 
 OIL = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2e-8)
@@ -111,8 +109,8 @@ def test_through_rest(kind, load):
 def test_the_temperature_of_the_state_is_that_of_the_oil():
     oil = bs.Lubricant.from_grade("ISO VG 100", 313.15)
     screw = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(4326.0))
-    element = BallScrewElement(MODELS["reference"], screw, oil)
-    warm = element(OperatingState(0.0, 50.0, np.array([313.15, 343.15])))
+    temperatures = np.array([313.15, 343.15])
+    warm = MODELS["reference"](screw, oil, axial_load=0.0, screw_speed=50.0, temperature=temperatures)
     assert warm.screw_torque[0] == MODELS["reference"](screw, oil, axial_load=0.0, screw_speed=50.0).screw_torque
     other = MODELS["reference"](screw, oil.at(343.15), axial_load=0.0, screw_speed=50.0)
     assert warm.screw_torque[1] == pytest.approx(other.screw_torque, rel=1e-13)

@@ -13,7 +13,7 @@ from ballscrew.compiler.tracing.gradient import partials
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.physics.equations import deflection
+from ballscrew.physics.equations import rigidity
 from ballscrew.physics.solvers.load_distribution import ball_loads, pair_load_deflection
 from support.nut_cases import KINDS, nut_case
 
@@ -111,7 +111,7 @@ def test_every_flank_carries_what_its_displacement_makes_of_it(drawn):
     """The displacement of both bodies, K δ^1.5 there, and the angle there."""
     screw, nut, load, constant, r = drawn
     alpha, c_phi = screw.contact_angle, np.cos(screw.lead_angle)
-    A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
+    A = rigidity.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     K, a = pair_load_deflection(screw), np.sin(alpha)
     offset, excess, preload = 0.0, 0.0, preload_of(nut, load)
     if isinstance(nut, OversizeBallNut):
@@ -130,15 +130,15 @@ def test_every_flank_carries_what_its_displacement_makes_of_it(drawn):
         if constant:
             sine, delta = a, xi * a + excess
         else:
-            s = deflection.loaded_centre_distance(A, alpha, xi)
-            sine = deflection.loaded_contact_sine(A, alpha, xi, s)
-            delta = deflection.ball_approach(A, alpha, xi, s, excess)
+            s = rigidity.loaded_centre_distance(A, alpha, xi)
+            sine = rigidity.loaded_contact_sine(A, alpha, xi, s)
+            delta = rigidity.ball_approach(A, alpha, xi, s, excess)
         if isinstance(nut, SingleNut):
             touches = (way * load > 0) & (delta > 0)
         else:
             touches = (delta > 0) & (sine > 0)
             assert np.allclose(turned, np.arcsin(sine), rtol=0, atol=2e-6)
-        expected = deflection.hertz_load(K, np.where(touches, delta, 0.0))
+        expected = rigidity.hertz_load(K, np.where(touches, delta, 0.0))
         assert np.max(np.abs(carried - expected) / size) <= 1e-5
 
 

@@ -8,15 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
 from ballscrew.axis.duty_cycle.brake import brake_of
-from ballscrew.axis.duty_cycle.drive import MotorCheck
+from ballscrew.axis.duty_cycle.drive_sizing import MotorCheck
 from ballscrew.axis.duty_cycle.duty import duty
-from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import Trapezoid
-from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.laws.inlet import Inlet
+from ballscrew.physics.laws.contact import Inlet
 
 MODEL = FrictionModel.reference()
 SCREW = bs.BallScrew(
@@ -58,11 +57,11 @@ def test_the_record_stands_exactly_where_the_torques_differ_by_more_than_a_tenth
     found = result(temperature, load, speed, grade)
     bath = result(temperature, load, speed, grade, dataclasses.replace(MODEL, inlet=Inlet(replenishment_constant=0.0)))
     assert found.flooded_torque == pytest.approx(bath.screw_torque, rel=1e-12)
-    said = [record for record in found.warning_records if record.id == starvation.STARVED]
+    said = [record for record in found.warning_records if record.id == validity.STARVED]
     # also where the little that is late is taken for nothing without asking for the other torque
     low, high = sorted((float(found.screw_torque), float(bath.screw_torque)))
     assert bool(said) == bool(high > 1.1 * low)
-    assert not [record for record in bath.warning_records if record.id == starvation.STARVED]
+    assert not [record for record in bath.warning_records if record.id == validity.STARVED]
     assert bath.flooded_torque == bath.screw_torque
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.friction.touching import most_loaded_ball, touched
+from ballscrew.physics.friction.ball_section import most_loaded_ball, touched
 
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"]
 NUTS = {

@@ -10,7 +10,7 @@ import numpy as np
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95, default_distributions
+from ballscrew.engine.uncertainty.uncertain_value import NORMAL_95, default_distributions
 
 RPM = 2 * math.pi / 60
 PRELOAD = 4326.0

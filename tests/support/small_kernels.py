@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import kernel_text
-from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.kernel import Kernel, aligned_array
 from ballscrew.compiler.tracing.program import Interpreter, Program
 from ballscrew.compiler.tracing.tape import Tape
 

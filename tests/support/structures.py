@@ -7,7 +7,7 @@ from collections import OrderedDict
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.engine.evaluation import structure_kernels
+from ballscrew.engine.evaluation import structures
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration
 
@@ -82,4 +82,4 @@ def forget_structures(monkeypatch, folder=None):
         monkeypatch.setenv("BALLSCREW_CACHE", str(folder))
     # what a process has in memory is private
     for name, empty in (("_found", OrderedDict()), ("_asked", OrderedDict()), ("impossible", set())):
-        monkeypatch.setattr(structure_kernels.kept, name, empty)
+        monkeypatch.setattr(structures.kept, name, empty)

@@ -1,10 +1,13 @@
 """Errors in the input: one line each, with the same text from Python and the command line.
 
 A line reads ``section.field: what is wrong (value) · remedy``.
+
+Overflow of plain numbers, reported as an error in the input.
 """
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import difflib
 import functools
@@ -12,7 +15,7 @@ import inspect
 import math
 import numbers
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 
 import numpy as np
@@ -363,3 +366,18 @@ def raise_if_any(faults: Sequence[Fault]) -> None:
     """Raise :class:`InputError` with all faults, if there are any."""
     if faults:
         raise InputError(*faults)
+
+
+@contextlib.contextmanager
+def overflow_as_input_error() -> Generator[None]:
+    """Turn an overflow or a division by zero of plain floats into an input error; also a decorator.
+
+    Arrays become infinite or NaN instead, and are covered by the validity.
+    """
+    try:
+        yield
+    except (OverflowError, ZeroDivisionError) as error:
+        if hasattr(error, "raised_by_law"):  # a law from outside, whose author wants to see it
+            raise
+        problem, remedy = "has numbers too large or too small to compute with", "look for powers of ten too many"
+        raise InputError(Fault("case", problem, str(error.args[-1]), remedy)) from error

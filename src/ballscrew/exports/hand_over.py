@@ -11,7 +11,7 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Quantity, within_bounds
-from ballscrew.cases.case_files import inputs
+from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
@@ -232,7 +232,7 @@ def of_case(case: Case, to: str, request: Request) -> Export:
         derivatives=request.derivatives,
         **{**target(to).options_of_case(case), **_options(to, request.options)},
     )
-    return dataclasses.replace(export, provenance={**export.provenance, **inputs.of_case(case)})
+    return dataclasses.replace(export, provenance={**export.provenance, **descriptions.of_case(case)})
 
 
 def _split(where: str, texts: Sequence[str], example: str) -> dict[str, str]:

@@ -30,7 +30,7 @@ from ballscrew.physics.components.materials import OF_A_GRADE, Lubricant
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.oil_grades import TEMPERATURE, OilState, grades, nominal_oil
 from ballscrew.physics.components.operating_state import settled
-from ballscrew.physics.friction.touching import MostLoadedBall, most_loaded_ball
+from ballscrew.physics.friction.ball_section import MostLoadedBall, most_loaded_ball
 from ballscrew.physics.solvers.load_distribution import (
     BallLoads,
     ElasticNutNumbers,

@@ -10,10 +10,10 @@ import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.output.text import wrapped
 from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.cases.case_files import descriptions
-from ballscrew.cases.case_files.makers_rules import subject_of
+from ballscrew.cases.case_files.named_calibration import subject_of
 from ballscrew.cases.torque_cards import torque_card
 from ballscrew.cases.torque_cards.torque_card import TorqueCard, TorquePoint
 from ballscrew.evidence.validation.entries import Band, Conditions, Entry, Point, ValidationSet, Values

@@ -16,8 +16,7 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.components.oil_grades import grades
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.model import LAWS, FrictionModel
 from ballscrew.physics.sizing.catalogue import catalogue
 
 

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.output.wrapping import aligned
+from ballscrew.basis.output.text import aligned
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files.lubricants import TEXTS
-from ballscrew.physics.components.data_sheet import DataSheet
 from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import DataSheet
 
 _FIELDS = fields_of(DataSheet)
 

@@ -8,9 +8,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.cycle_life import CycleLife, cubic_mean
+from ballscrew.axis.duty_cycle.drive_sizing import CycleLife, VendorRule, cubic_mean
 from ballscrew.axis.duty_cycle.duty import duty
-from ballscrew.axis.duty_cycle.vendor_rule import VendorRule
 from ballscrew.axis.motion.profiles import Segment, Segments
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]

@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.drive import MotorCheck
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
+from ballscrew.axis.duty_cycle.drive_sizing import MotorCheck
 from ballscrew.axis.duty_cycle.duty import cycle, duty
-from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import SCurve, Sine, Trapezoid
-from ballscrew.axis.motion.states import NODES
-from ballscrew.axis.motion.turns import largest_within, sign_changes
+from ballscrew.axis.motion.states import NODES, largest_within, sign_changes
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 SCREW = ROW.screw()

@@ -3,7 +3,7 @@
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
+from ballscrew.axis.supports.element_laws import guide_rows, support_units
 from ballscrew.basis.references import bibliography
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis.supports import formulas
 from ballscrew.axis.supports.guide import CarriedMass, GuidedTable
 from ballscrew.physics.sizing.checks import mean_load
+from support.equations import guide_life
 
 #: PMI2008. Known are the numbers and the results; what each length is, and the stroke of 1500 mm, was found by them:
 #: l1 and l2 the spacings, l3 and l4 where the 700 kg are, l6 and l5 how high the 700 kg and the 450 kg are.
@@ -44,7 +44,7 @@ def test_largest_load_of_the_example():
 
 def test_lives_of_the_example():
     """One rating over its service factor, 42.4 kN, explains all four lives to four digits."""
-    lives = [float(formulas.guide_life(42_400.0, mean, 1.0)) for mean in mean_loads()]
+    lives = [float(guide_life(42_400.0, mean, 1.0)) for mean in mean_loads()]
     assert [f"{life:.3e}" for life in lives] == [f"{life:.3e}" for life in LIVES]
 
 

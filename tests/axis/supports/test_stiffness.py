@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 import ballscrew as bs
-from ballscrew.axis.supports.catalogue_rows import support_units
+from ballscrew.axis.supports.element_laws import support_units
 from ballscrew.axis.supports.stiffness import buckling_root, stiffness_over_stroke, whirling_root
 from ballscrew.physics.sizing.installation import Ends, Installation
 

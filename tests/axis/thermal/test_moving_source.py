@@ -12,8 +12,7 @@ from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.motion.profiles import Segment, Segments
 from ballscrew.axis.thermal.friction_map import friction_map
 from ballscrew.axis.thermal.moving_source import Itinerary, Slot, is_long, itinerary_of, marched
-from ballscrew.axis.thermal.network import network_of, nut_length_of
-from ballscrew.axis.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY
+from ballscrew.axis.thermal.network import CAPACITY, CONDUCTIVITY, DENSITY, network_of, nut_length_of
 from ballscrew.axis.thermal.warm_up import warm_up
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]

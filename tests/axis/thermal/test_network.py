@@ -10,13 +10,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import ballscrew as bs
-from ballscrew.axis.thermal.equilibrium import equilibrium
 from ballscrew.axis.thermal.friction_map import FrictionMap
 from ballscrew.axis.thermal.moving_source import Piece, Slot, marched
-from ballscrew.axis.thermal.network import Network, network_of
-from ballscrew.axis.thermal.shaft import CONDUCTIVITY, EXPANSION, Shaft
+from ballscrew.axis.thermal.network import CONDUCTIVITY, EXPANSION, Network, Shaft, network_of
 from ballscrew.axis.thermal.surroundings import Surroundings
-from ballscrew.axis.thermal.warm_up import warm_up
+from ballscrew.axis.thermal.warm_up import equilibrium, warm_up
 
 AIR, COOLANT = 295.0, 292.0
 FIRST, LAST, LENGTH = 0.3, 0.75, 1.2

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import erfc
 
-from ballscrew.axis.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
+from ballscrew.axis.thermal.network import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
 
 LENGTH, DIAMETER, CONVECTION, HEAT = 1.0, 0.036, 12.0, 30.0
 FIN = Shaft(length=LENGTH, diameter=DIAMETER, convection=CONVECTION)

@@ -9,12 +9,11 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.axis.thermal import warm_up_band as module
-from ballscrew.axis.thermal.equilibrium import equilibrium
 from ballscrew.axis.thermal.modes import functions
 from ballscrew.axis.thermal.moving_source import Piece, Slot, marched
 from ballscrew.axis.thermal.network import FrictionFactor
 from ballscrew.axis.thermal.surroundings import VARIED
-from ballscrew.axis.thermal.warm_up import warm_up
+from ballscrew.axis.thermal.warm_up import equilibrium, warm_up
 from ballscrew.axis.thermal.warm_up_band import sampled, warm_up_band
 from ballscrew.basis.errors import InputError
 

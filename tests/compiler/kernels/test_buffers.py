@@ -9,18 +9,18 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from ballscrew.compiler.kernels import buffers
-from ballscrew.compiler.kernels.buffers import ALIGNMENT, HUGE_PAGE, LEAST_KEPT, aligned_array
+from ballscrew.compiler.kernels import kernel
+from ballscrew.compiler.kernels.kernel import ALIGNMENT, HUGE_PAGE, LEAST_KEPT, aligned_array
 
-needs_pieces = pytest.mark.skipif(not buffers._MAY_BE_KEPT, reason="this system cannot take memory back by itself")
+needs_pieces = pytest.mark.skipif(not kernel._MAY_BE_KEPT, reason="this system cannot take memory back by itself")
 LARGE = LEAST_KEPT // 8
 
 
 @pytest.fixture(autouse=True)
 def nothing_kept():
-    buffers.forget()
+    kernel.forget()
     yield
-    buffers.forget()
+    kernel.forget()
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -67,7 +67,7 @@ def test_a_piece_is_neither_too_small_nor_much_too_large():
         places.append(address(array))
         del array
     # nothing public tells how much memory is kept
-    assert len(buffers._kept) == 2
+    assert len(kernel._kept) == 2
     assert address(aligned_array(15 * LARGE, float)) == places[0]
     assert address(aligned_array(2 * LARGE, float)) == places[1]
     enormous = aligned_array(40 * LARGE, float)
@@ -77,20 +77,20 @@ def test_a_piece_is_neither_too_small_nor_much_too_large():
 
 @needs_pieces
 def test_only_so_much_is_kept(monkeypatch):
-    monkeypatch.setattr(buffers, "MOST_KEPT", 12 * HUGE_PAGE)
+    monkeypatch.setattr(kernel, "MOST_KEPT", 12 * HUGE_PAGE)
     arrays = [aligned_array(LARGE, float) for _ in range(20)]
     del arrays
     # nothing public tells how much memory is kept
-    assert 1 <= sum(map(len, buffers._kept)) <= 12 * HUGE_PAGE
-    monkeypatch.setattr(buffers, "MOST_PIECES", 2)
+    assert 1 <= sum(map(len, kernel._kept)) <= 12 * HUGE_PAGE
+    monkeypatch.setattr(kernel, "MOST_PIECES", 2)
     arrays = [aligned_array(LARGE, float) for _ in range(5)]
     del arrays
     # nothing public tells how much memory is kept
-    assert len(buffers._kept) == 2
+    assert len(kernel._kept) == 2
     huge = aligned_array(13 * HUGE_PAGE // 8, float)
     del huge
     # nothing public tells how much memory is kept
-    assert sum(map(len, buffers._kept)) <= 12 * HUGE_PAGE
+    assert sum(map(len, kernel._kept)) <= 12 * HUGE_PAGE
 
 
 def test_no_two_threads_get_the_same_memory():
@@ -109,11 +109,11 @@ def test_no_two_threads_get_the_same_memory():
 
 @needs_pieces
 def test_a_system_that_refuses_keeps_nothing(monkeypatch):
-    monkeypatch.setattr(buffers.mmap, "MADV_FREE", -1)
+    monkeypatch.setattr(kernel.mmap, "MADV_FREE", -1)
     array = aligned_array(LARGE, float)
     del array
     # nothing public tells how much memory is kept
-    assert not buffers._kept
+    assert not kernel._kept
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
@@ -122,13 +122,13 @@ def test_a_child_begins_with_nothing():
     """In a process of its own, as other libraries warn of a fork in this one."""
     program = (
         "import os\n"
-        "from ballscrew.compiler.kernels import buffers\n"
-        f"array = buffers.aligned_array({LARGE}, float)\n"
+        "from ballscrew.compiler.kernels import kernel\n"
+        f"array = kernel.aligned_array({LARGE}, float)\n"
         "del array\n"
-        "assert buffers._kept\n"
+        "assert kernel._kept\n"
         "child = os.fork()\n"
         "if child == 0:\n"
-        "    os._exit(3 if buffers._kept else 0)\n"
+        "    os._exit(3 if kernel._kept else 0)\n"
         "print('child:', os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))"
     )
     outcome = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

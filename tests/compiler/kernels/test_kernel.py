@@ -10,9 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ballscrew.compiler.kernels import kernel as kernels
-from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text
-from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.kernel import Kernel, aligned_array
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 from support.expressions import EXPRESSIONS

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import kernel_text
-from ballscrew.compiler.kernels.kernel import Kernel
-from ballscrew.compiler.kernels.watched import WatchedKernel
+from ballscrew.compiler.kernels.kernel import Kernel, WatchedKernel, aligned_array
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 

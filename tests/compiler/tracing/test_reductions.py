@@ -6,8 +6,7 @@ import pytest
 from ballscrew.compiler.tracing.grid import split
 from ballscrew.compiler.tracing.merging import cut_at_reductions, reduced
 from ballscrew.compiler.tracing.program import Program
-from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
-from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
+from ballscrew.compiler.tracing.tape import COLUMNS, ROWS, CannotRecordError, Tape
 
 GROUPS = [COLUMNS, ROWS | COLUMNS]
 SPEED, LOAD = np.array([2.0, 3.0, 5.0, 7.0]), np.arange(12.0).reshape(3, 4) % 5

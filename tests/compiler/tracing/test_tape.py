@@ -7,8 +7,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.compiler.tracing.program import Interpreter, Program
-from ballscrew.compiler.tracing.steps import choose
-from ballscrew.compiler.tracing.tape import Tape, Traced
+from ballscrew.compiler.tracing.tape import Tape, Traced, choose
 from support.expressions import EXPRESSIONS
 
 X = np.array([0.0, 0.25, 1.0, 2.0, 7.0])

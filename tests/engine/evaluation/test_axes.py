@@ -5,8 +5,8 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.engine.evaluation.axes import BLOCK, ends
 from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.outputs import BLOCK, ends
 from ballscrew.engine.evaluation.plan import LONG_AXIS, Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 

@@ -11,11 +11,10 @@ import xarray as xr
 import ballscrew as bs
 from ballscrew.engine.evaluation import by_ball
 from ballscrew.engine.evaluation.by_ball import ENOUGH_TO_RECORD
-from ballscrew.engine.evaluation.engines import KNOWN
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.recordings import Structures
+from ballscrew.engine.evaluation.recordings import KNOWN, Structures
 from ballscrew.physics.friction.loaded_balls import loads_of
 from support.structures import forget_structures
 

@@ -17,13 +17,17 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.compiler.kernels import kernel
-from ballscrew.compiler.tracing.written import as_document, can_be_written, from_document
-from ballscrew.engine.evaluation import structure_kernels
+from ballscrew.compiler.tracing.program import as_document, can_be_written, from_document
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.structure_kernels import OilFollows, Structure
-from ballscrew.engine.evaluation.structures import inputs_of_structure, numbers_alone, recorded_structure
+from ballscrew.engine.evaluation.structures import (
+    OilFollows,
+    Structure,
+    inputs_of_structure,
+    numbers_alone,
+    recorded_structure,
+)
 from ballscrew.physics.equations import hertz
 from support.structures import CASES, NUTS, OIL, ROW, assert_same, by_model, case_of, forget_structures, points_of
 
@@ -214,7 +218,7 @@ def test_what_another_source_has_made_is_not_used(monkeypatch, tmp_path):
     subject = case_of("single", "olaru2005")
     kernel_of(subject)
     forget_structures(monkeypatch)
-    monkeypatch.setattr(structure_kernels, "recorder_digest", lambda: "another package")
+    monkeypatch.setattr(f"{Structure.__module__}.recorder_digest", lambda: "another package")
     assert Structure(subject, ["screw_torque"]).known() is None
 
 

@@ -9,7 +9,7 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.sweeps.reversal import PARTS, dataset_of
+from ballscrew.engine.sweeps.sweep import PARTS, dataset_of
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.moving_balls.reversal import LOSSES, MECHANISMS, reversal
 from support.reversals import closed_form

@@ -181,7 +181,7 @@ def test_killed_in_the_middle_it_goes_on_where_it_was(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_killed_before_any_rename_it_goes_on(swept, tmp_path, monkeypatch):
     """Before each rename the folder is set aside as a kill at that moment would leave it; each goes on to the same."""
-    monkeypatch.setattr("ballscrew.engine.sweeps.stream.WRITERS", 1)  # one rename at a time
+    monkeypatch.setattr("ballscrew.engine.sweeps.cluster.WRITERS", 1)  # one rename at a time
     left = []
     replace = Path.replace
 

@@ -11,7 +11,7 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.evaluation import Evaluation
-from ballscrew.engine.sweeps.store_files import cells_of, row
+from ballscrew.engine.sweeps.store_plan import cells_of, row
 from support.stores import MODEL, SMALL, files, stop_at
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")

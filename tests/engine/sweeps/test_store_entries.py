@@ -6,7 +6,7 @@ import sys
 import pytest
 
 import ballscrew as bs
-from ballscrew.engine.sweeps.store_files import Lock
+from ballscrew.engine.sweeps.store_plan import Lock
 from support.stores import files, stop_at
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")

@@ -19,17 +19,17 @@ from ballscrew.basis.references import bibliography
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.evaluation.comparison import Candidate
 from ballscrew.engine.uncertainty.bands import band, band_along
-from ballscrew.engine.uncertainty.default_uncertainties import (
+from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
+from ballscrew.engine.uncertainty.monte_carlo import JointNormal
+from ballscrew.engine.uncertainty.uncertain_value import (
     JUDGEMENT,
     NORMAL_95,
     default_distributions,
     default_uncertainties,
 )
-from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
-from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce, imposed_ball_force
+from ballscrew.physics.laws.contact import houpert_rolling
 from ballscrew.physics.laws.friction import BalanSharing
-from ballscrew.physics.laws.rolling import houpert_rolling
 from ballscrew.physics.solvers.load_distribution import preload_growth, preload_of
 from ballscrew.questions.band import compute
 
@@ -373,7 +373,7 @@ def test_every_input_in_the_file_exists(seed_screw):
     """Each is an input of some model and a preloaded nut, so that no name is misspelt."""
     from ballscrew.cases.screw_tables.nut_kinds import LOSSES
     from ballscrew.engine.evaluation.outputs import inputs_of
-    from ballscrew.physics.friction.law_names import LAWS
+    from ballscrew.physics.friction.model import LAWS
 
     model = bs.FrictionModel.reference()
     oil = bs.Lubricant.from_grade("ISO VG 100")

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.evidence.calibration.plausibility import (
+from ballscrew.evidence.calibration.diagnostics import (
     BOUNDARY_FRICTION,
     HIGHEST_PRELOAD,
     MOST_CONSTANT,

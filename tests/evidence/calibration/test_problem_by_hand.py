@@ -13,15 +13,13 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.evidence.calibration import problem as problems
 from ballscrew.evidence.calibration.baselines import first_loss, robust_linear
+from ballscrew.evidence.calibration.calibrated_model import Posterior
+from ballscrew.evidence.calibration.diagnostics import _is_zero_by_chance
 from ballscrew.evidence.calibration.fit import _one_sided, fit
 from ballscrew.evidence.calibration.next_test import _after, _grid, _volume
-from ballscrew.evidence.calibration.oil_temperature import torque_per_kelvin
-from ballscrew.evidence.calibration.plausibility import _is_zero_by_chance
-from ballscrew.evidence.calibration.posterior import Posterior
-from ballscrew.evidence.calibration.priors import Priors
-from ballscrew.evidence.calibration.problem import Problem
+from ballscrew.evidence.calibration.problem import CONVENTIONS, Priors, Problem, identify_convention
+from ballscrew.evidence.calibration.response import torque_per_kelvin
 from ballscrew.evidence.calibration.robust import Noise, Solution
-from ballscrew.evidence.calibration.torque_conventions import CONVENTIONS, identify_convention
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from support.power_law import BOUNDARY_FRICTION, MODEL, PER_KELVIN, SPEED, P, torque_of
 from support.service_logs import OIL, PRELOAD, SCREW, WARM

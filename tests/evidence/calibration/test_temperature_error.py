@@ -11,7 +11,7 @@ from scipy.stats import t as student
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.engine.uncertainty.uncertain_value import NORMAL_95
 from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
 from ballscrew.evidence.calibration.fit import fit
 from ballscrew.evidence.papers.olaru2005.case import SCREW

@@ -12,8 +12,7 @@ from ballscrew.evidence.moving_logs.equation import Equation, dead_time
 from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, SCREW
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.evidence.moving_logs.power_law import power_law
-from ballscrew.evidence.moving_logs.screw_friction import ScrewFriction
-from ballscrew.evidence.moving_logs.screw_model import NAMES, linear_model
+from ballscrew.evidence.moving_logs.screw_model import NAMES, ScrewFriction, linear_model
 from support.moving_logs import MODEL, OIL, SCREW_OF, TRUTH, record, strokes
 
 TRUE = np.array([TRUTH[name] for name in NAMES])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from ballscrew.evidence.moving_logs.regression import LeastSquares, block_length, bootstrap_sums
+from ballscrew.evidence.moving_logs.equation import LeastSquares, block_length, bootstrap_sums
 
 
 def coloured(rows, pole, seed):

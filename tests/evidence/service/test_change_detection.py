@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
-from ballscrew.evidence.service.change_detection import ALLOWANCE, chart, limits, scatter_of, trend
+from ballscrew.evidence.service.condition_means import ALLOWANCE, chart, limits, scatter_of, trend
 
 #: Healthy series, and how often a right rate fails the test.
 MANY, FALSE_ALARM = 2000, 1e-4

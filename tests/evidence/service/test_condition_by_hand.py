@@ -11,8 +11,7 @@ from scipy.stats import norm
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.evidence.service.change_detection import Trend
-from ballscrew.evidence.service.condition_means import _faults_of_sources, _of_one_speed, of_logs
+from ballscrew.evidence.service.condition_means import Trend, _faults_of_sources, _of_one_speed, of_logs
 from ballscrew.evidence.service.condition_records import (
     _of_baseline,
     _of_factor,

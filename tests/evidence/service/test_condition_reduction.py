@@ -8,7 +8,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.service.condition_means import Means
-from ballscrew.evidence.service.condition_reduction import reduced
+from ballscrew.evidence.service.condition_values import reduced
 from support.service_logs import OIL, RPM, SCREW, WARM
 
 TESTS = 6

@@ -14,9 +14,8 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 from ballscrew.evidence.service import posterior
-from ballscrew.evidence.service.diagnostics import temperature_trend
+from ballscrew.evidence.service.diagnostics import Mixture, temperature_trend
 from ballscrew.evidence.service.posterior import Groups, Posterior, conditional
-from ballscrew.evidence.service.preload_estimate import Mixture
 from support.power_law import BOUNDARY_FRICTION, MODEL, PER_KELVIN, SPEED, P, S, torque_of
 from support.service_logs import OIL, PRELOAD, SCREW, WARM
 

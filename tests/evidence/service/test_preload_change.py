@@ -10,7 +10,7 @@ from scipy.stats import binom
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.evidence.service.preload_estimate import Mixture
+from ballscrew.evidence.service.diagnostics import Mixture
 from support.service_logs import OIL, PRELOAD, RPM, SCREW, WARM, another_screw, log, pair
 
 PAPER = bs.FrictionModel.olaru2005()

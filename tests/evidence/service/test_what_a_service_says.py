@@ -10,8 +10,8 @@ from scipy.stats import chi2
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.service import diagnostics
+from ballscrew.evidence.service.diagnostics import Mixture, PreloadEstimate
 from ballscrew.evidence.service.preload_change import PreloadChange, _faults_of_logs, _faults_of_options, _nominal
-from ballscrew.evidence.service.preload_estimate import Mixture, PreloadEstimate
 from support.power_law import MODEL
 from support.service_logs import OIL, PRELOAD, SCREW, WARM
 

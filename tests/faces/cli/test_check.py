@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import ballscrew as bs
-from ballscrew.basis.output.wrapping import WIDTH
+from ballscrew.basis.output.text import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.equations import life

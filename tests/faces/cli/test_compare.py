@@ -10,14 +10,13 @@ import sys
 import pytest
 
 from ballscrew.basis.output.sheet import Bars, Table
-from ballscrew.basis.output.wrapping import WIDTH
+from ballscrew.basis.output.text import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
-from ballscrew.faces.sheets import terminal, to_file
+from ballscrew.faces.sheets import files, terminal
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.friction.model import presets
+from ballscrew.physics.friction.model import LAWS, presets
 from ballscrew.questions.compare import compute
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import charts
@@ -249,7 +248,7 @@ def test_what_a_picture_says(load, paper, tmp_path):
     case = dataclasses.replace(paper, operation=dataclasses.replace(paper.operation, axial_load=load))
     found = compute.comparison(case)
     seen = sheet(case, found)
-    to_file.write(tmp_path / "spread.svg", seen)
+    files.write(tmp_path / "spread.svg", seen)
     shown = drawn(tmp_path / "spread.svg")
     for words in (
         f"{load:.4g} N, 600 rpm, model reference",

@@ -9,7 +9,7 @@ import pytest
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Chart, Curve, Lines
-from ballscrew.basis.output.wrapping import WIDTH
+from ballscrew.basis.output.text import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.faces.sheets import pictures

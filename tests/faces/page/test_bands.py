@@ -5,9 +5,9 @@ import pytest
 
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.engine.evaluation.outputs import inputs_of
-from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
 from ballscrew.engine.uncertainty.distributions import allowed, standard_normal_quantile, standard_normal_share
 from ballscrew.engine.uncertainty.monte_carlo import sobol_sequence
+from ballscrew.engine.uncertainty.uncertain_value import default_uncertainties
 from ballscrew.faces.page import banding, kinds
 from support.bands_in_node import BandsPage, band_of_program, fan_of_program
 from support.judged_in_node import case_at

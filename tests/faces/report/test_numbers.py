@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import Number, Share, words
+from ballscrew.basis.output.text import plain
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.units import to_digits
 from ballscrew.faces.sheets.report_blocks import Paragraph, Picture, Report, Section, as_data

@@ -31,7 +31,7 @@ from ballscrew.basis.output.sheet import (
     words,
 )
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.faces.sheets import files, pictures, report_blocks, terminal, to_file
+from ballscrew.faces.sheets import files, pictures, report_blocks, terminal
 from support.pictures import drawn
 
 LENGTH = Quantity("stroke", "m", Info("s", "stroke", "mm"))
@@ -170,10 +170,10 @@ def test_report_leaves_detail_out():
 
 
 def test_csv_and_workbook(tmp_path):
-    to_file.write(tmp_path / "a.csv", SHEET)
+    files.write(tmp_path / "a.csv", SHEET)
     with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as stream:
         assert list(csv.reader(stream)) == [["time [s]", "phase"], ["0.0", "a"], ["0.5", "b"], ["", "b"]]
-    to_file.write(tmp_path / "a.xlsx", SHEET)
+    files.write(tmp_path / "a.xlsx", SHEET)
     with zipfile.ZipFile(tmp_path / "a.xlsx") as book:
         listed = book.read("xl/workbook.xml").decode()
     assert [name in listed for name in ("parts", "life", "states")] == [True] * 3
@@ -186,7 +186,7 @@ def test_csv_and_workbook(tmp_path):
 
 
 def test_picture(tmp_path):
-    to_file.write(tmp_path / "a.svg", SHEET)
+    files.write(tmp_path / "a.svg", SHEET)
     shown = drawn(tmp_path / "a.svg")
     charts = ("position [mm]", "time [s]", "there", "samples", "end", "half", "amplitude [mm]", "grown [mm]")
     caption = "It holds. It is warm. Assumed: a length."
@@ -216,7 +216,7 @@ def test_csv_is_the_first_table_of_columns_or_else_the_first_table(tmp_path):
         ([short, *columns], "", "x\n1\n"),
         ([short, *columns], "two", "x\n1\n2\n"),
     ):
-        files.write(tmp_path / "a.csv", Sheet("s", blocks), name)
+        files.write_tables(tmp_path / "a.csv", Sheet("s", blocks), name)
         assert (tmp_path / "a.csv").read_text() == text
 
 
@@ -258,7 +258,7 @@ def test_unknown_kinds_of_files_are_refused(tmp_path):
     from ballscrew.basis.errors import InputError
 
     with pytest.raises(InputError, match=r"a\.doc.*\.csv, \.xlsx, \.png, \.svg or \.pdf"):
-        to_file.check([tmp_path / "a.doc"])
+        files.check([tmp_path / "a.doc"])
 
 
 def test_an_end_of_a_band_is_rounded_outward():

@@ -18,7 +18,7 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.evidence.moving_logs import columns
 from ballscrew.evidence.validation.sets import SETS
-from ballscrew.files.tables import decimals, rows, sheets
+from ballscrew.files.tables import cells, rows, sheets
 from ballscrew.files.tables.headings import Column, heading_of, headings_in, known_heading_of
 from ballscrew.files.tables.sheets import Record
 from ballscrew.files.torque_logs import columns as torque_logs
@@ -343,18 +343,18 @@ def test_decimal_commas(table):
      (["6,35", "6.35"], ",."), (["1,234,567"], ""), (["x", "-,"], ""), (["5,5 mm"], ",")],
 )  # fmt: skip
 def test_evidence_of_decimal_marks(texts, marks):
-    assert decimals.evidence(texts) == frozenset(marks)
+    assert cells.evidence(texts) == frozenset(marks)
 
 
 def test_nobody_guesses_a_factor_of_a_thousand():
     """A number that may be two is refused, whatever marks the rest of the table has, unless they agree."""
     for decimal, text in [("", "1,234"), (".", "1,234"), (",.", "1,234"), (",", "1.234"), (",.", "1.234")]:
-        found = decimals.with_point("", text, frozenset(decimal))
+        found = cells.with_point("", text, frozenset(decimal))
         assert isinstance(found, Fault)
         written = found.parts[2].partition("thousands, ")[2].partition(" ")[0]  # as the remedy says
-        assert float(decimals.with_point("", written, frozenset(decimal))) == 1.234
+        assert float(cells.with_point("", written, frozenset(decimal))) == 1.234
     for decimal, text in [(",", "1,234"), ("", "1.234"), (".", "1.234")]:
-        assert decimals.with_point("", text, frozenset(decimal)) == "1.234"
+        assert cells.with_point("", text, frozenset(decimal)) == "1.234"
 
 
 def test_unicode_minus_and_signs(table):

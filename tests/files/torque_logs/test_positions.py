@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ballscrew.files.torque_logs import reading
-from ballscrew.files.torque_logs.positions import FeedRates, feed_rate
+from ballscrew.files.torque_logs.motion import FeedRates, feed_rate
 from support.log_texts import RPM, lines_of
 
 

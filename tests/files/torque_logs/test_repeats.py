@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ballscrew.files.torque_logs.repeats import repeated_rows
+from ballscrew.files.torque_logs.cleaning import repeated_rows
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 

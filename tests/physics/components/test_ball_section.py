@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
 from ballscrew.physics.components.materials import LAND
 from ballscrew.physics.equations import geometry
+from ballscrew.physics.friction.ball_section import Arc, contact_width, land_height
 
 RADIUS, CONFORMITY, ANGLE = 3e-3, 0.54, math.radians(42.0)
 SIDES = [(outward, loaded) for outward in (1, -1) for loaded in (True, False)]

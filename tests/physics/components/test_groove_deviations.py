@@ -10,7 +10,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.physics.friction.loaded_balls import ball_angles, loads_of
 
 U = pint.UnitRegistry()

@@ -20,7 +20,7 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.engine.uncertainty.bands import band_along
 from ballscrew.physics.components.nut import Scatter
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.model import LAWS
 from ballscrew.physics.laws import nut_losses
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.checks import checks

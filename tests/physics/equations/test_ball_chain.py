@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ballscrew.physics.equations import ball_chain, geometry, kinematics
+from support.equations import speed_deviation
 
 #: A 40×10 with balls of 6 mm, in SI: curvature ratio, contact angle, distance of the groove centres, path radius.
 GAMMA, ALPHA, DISTANCE, RADIUS = 0.1054, math.pi / 4, 480e-6, 0.02006
@@ -15,8 +16,8 @@ def test_a_micrometre_turns_the_contact_by_a_twelfth_of_a_degree():
     # ±1 µm of groove place at f = 0.54 and 6 mm: 0.085°, and 1.7e-4 of the speed; 2.1e-3 a degree
     change = ball_chain.contact_angle_change(1e-6, 0.0, ALPHA, DISTANCE)
     assert math.degrees(change) == pytest.approx(0.0844, abs=1e-4)
-    assert ball_chain.speed_deviation(GAMMA, ALPHA, change, 0.0, RADIUS) == pytest.approx(1.74e-4, rel=5e-3)
-    assert ball_chain.speed_deviation(GAMMA, ALPHA, math.radians(1), 0.0, RADIUS) == pytest.approx(2.06e-3, rel=5e-3)
+    assert speed_deviation(GAMMA, ALPHA, change, 0.0, RADIUS) == pytest.approx(1.74e-4, rel=5e-3)
+    assert speed_deviation(GAMMA, ALPHA, math.radians(1), 0.0, RADIUS) == pytest.approx(2.06e-3, rel=5e-3)
 
 
 @pytest.mark.parametrize("alpha", [0.5, 0.8, 1.1])
@@ -31,11 +32,11 @@ def test_the_deviation_is_the_slope_of_the_kinematics(alpha):
 
     gamma, L = geometry.curvature_ratio(d_w, d_m, alpha, phi), geometry.path_radius(d_m, phi)
     by_angle = (speed(alpha + step, 0.0) - speed(alpha - step, 0.0)) / (2 * step * speed(alpha, 0.0))
-    assert by_angle == pytest.approx(ball_chain.speed_deviation(gamma, alpha, 1.0, 0.0, L), rel=1e-7)
+    assert by_angle == pytest.approx(speed_deviation(gamma, alpha, 1.0, 0.0, L), rel=1e-7)
     far = 1e-7
     by_shift = (speed(alpha, far) - speed(alpha, -far)) / (2 * far * speed(alpha, 0.0))
     # the shift of the path is along the helix, where the pitch circle is wider by twice it times the cosine
-    assert by_shift / math.cos(phi) == pytest.approx(ball_chain.speed_deviation(gamma, alpha, 0.0, 1.0, L), rel=1e-2)
+    assert by_shift / math.cos(phi) == pytest.approx(speed_deviation(gamma, alpha, 0.0, 1.0, L), rel=1e-2)
 
 
 def test_creep_is_between_its_limits():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from ballscrew.physics.equations import deflection, hertz
+from ballscrew.physics.equations import hertz, rigidity
 
 #: A few operations on doubles.
 RELATIVE = 2e-15
@@ -17,8 +17,8 @@ DISPLACEMENTS = (-2e-5, -1e-9, 1e-13, 1e-10, 1e-7, 3e-6, 2e-5, 9.5e-5)
 
 
 def approach(angle, displacement, excess=0.0):
-    s = deflection.loaded_centre_distance(CENTRES, angle, displacement)
-    return deflection.ball_approach(CENTRES, angle, displacement, s, excess)
+    s = rigidity.loaded_centre_distance(CENTRES, angle, displacement)
+    return rigidity.ball_approach(CENTRES, angle, displacement, s, excess)
 
 
 @pytest.mark.parametrize("degrees", [20, 45, 70])
@@ -30,7 +30,7 @@ def test_approach_is_the_change_of_the_distance(degrees, displacement):
         A, alpha, xi = map(mpmath.mpf, (CENTRES, angle, displacement))
         s = mpmath.sqrt((A * mpmath.cos(alpha)) ** 2 + (A * mpmath.sin(alpha) + xi) ** 2)
         assert abs(approach(angle, displacement) / (s - A) - 1) <= RELATIVE
-        sine = deflection.loaded_contact_sine(CENTRES, angle, displacement, float(s))
+        sine = rigidity.loaded_contact_sine(CENTRES, angle, displacement, float(s))
         assert abs(sine / ((A * mpmath.sin(alpha) + xi) / s) - 1) <= RELATIVE
 
 
@@ -44,8 +44,8 @@ def test_a_small_displacement_approaches_by_its_share_along_the_normal():
 
 
 def test_centres_of_grooves_as_wide_as_the_ball_coincide():
-    assert deflection.groove_centre_distance(0.5, 0.5, 3e-3) == 0
-    assert deflection.groove_centre_distance(0.52, 0.54, 3e-3) == pytest.approx(0.06 * 3e-3, rel=1e-14)
+    assert rigidity.groove_centre_distance(0.5, 0.5, 3e-3) == 0
+    assert rigidity.groove_centre_distance(0.52, 0.54, 3e-3) == pytest.approx(0.06 * 3e-3, rel=1e-14)
 
 
 # -- Hertz' law ------------------------------------------------------------------------------------
@@ -56,16 +56,16 @@ def test_centres_of_grooves_as_wide_as_the_ball_coincide():
 def test_load_is_the_inverse_of_the_mutual_approach(load, coefficient):
     E, R_x = 2.26e11, 1.6e-3
     delta = hertz.mutual_approach(coefficient, R_x, load / (E * R_x**2))
-    K = deflection.contact_load_deflection(coefficient, E, R_x)
-    assert deflection.hertz_load(K, delta) == pytest.approx(load, rel=1e-14)
+    K = rigidity.contact_load_deflection(coefficient, E, R_x)
+    assert rigidity.hertz_load(K, delta) == pytest.approx(load, rel=1e-14)
 
 
 def test_two_contacts_in_series_carry_one_load_and_approach_by_the_sum():
     K_s, K_n, load = 3e9, 7e10, 250.0
     both = (load / K_s) ** (2 / 3) + (load / K_n) ** (2 / 3)
-    assert deflection.hertz_load(deflection.series_load_deflection(K_s, K_n), both) == pytest.approx(load, rel=1e-14)
-    assert deflection.series_load_deflection(K_s, K_s) == pytest.approx(K_s / 2**1.5, rel=1e-14)
-    assert deflection.series_load_deflection(K_s, 1e30) == pytest.approx(K_s, rel=1e-12)
+    assert rigidity.hertz_load(rigidity.series_load_deflection(K_s, K_n), both) == pytest.approx(load, rel=1e-14)
+    assert rigidity.series_load_deflection(K_s, K_s) == pytest.approx(K_s / 2**1.5, rel=1e-14)
+    assert rigidity.series_load_deflection(K_s, 1e30) == pytest.approx(K_s, rel=1e-12)
 
 
 # -- the screw of the paper ------------------------------------------------------------------------
@@ -77,7 +77,7 @@ def test_contact_angle_of_the_papers_screw_under_load():
     From the Hertz approach of both contacts by itself, with the balance of the balls as one equation.
     """
     d_w, d_m, z, alpha, phi = 3.175e-3, 0.040, 56, math.pi / 4, math.atan(0.005 / (math.pi * 0.040))
-    A = deflection.groove_centre_distance(0.515, 0.515, d_w)
+    A = rigidity.groove_centre_distance(0.515, 0.515, d_w)
     gamma = d_w * math.cos(alpha) * math.cos(phi) ** 2 / d_m
     R_y = 0.515 * d_w / (2 * 0.515 - 1)
 
@@ -86,15 +86,15 @@ def test_contact_angle_of_the_papers_screw_under_load():
         kappa = hertz.ellipticity(k)
         integrals = hertz.elliptic_integrals(kappa)
         coefficient = hertz.approach_coefficient(k, kappa, integrals.K, integrals.E)
-        return deflection.contact_load_deflection(coefficient, 2.26e11, R_x)
+        return rigidity.contact_load_deflection(coefficient, 2.26e11, R_x)
 
-    K = deflection.series_load_deflection(*(load_deflection(d_w / 2 * (1 + side * gamma)) for side in (-1, 1)))
+    K = rigidity.series_load_deflection(*(load_deflection(d_w / 2 * (1 + side * gamma)) for side in (-1, 1)))
 
     def left(xi):
-        s = deflection.loaded_centre_distance(A, alpha, xi)
-        Q = deflection.hertz_load(K, deflection.ball_approach(A, alpha, xi, s, 0.0))
-        return z * Q * deflection.loaded_contact_sine(A, alpha, xi, s) * math.cos(phi) - 4000.0
+        s = rigidity.loaded_centre_distance(A, alpha, xi)
+        Q = rigidity.hertz_load(K, rigidity.ball_approach(A, alpha, xi, s, 0.0))
+        return z * Q * rigidity.loaded_contact_sine(A, alpha, xi, s) * math.cos(phi) - 4000.0
 
     xi = brentq(left, 0.0, 1e-4, xtol=1e-16)
-    sine = deflection.loaded_contact_sine(A, alpha, xi, deflection.loaded_centre_distance(A, alpha, xi))
+    sine = rigidity.loaded_contact_sine(A, alpha, xi, rigidity.loaded_centre_distance(A, alpha, xi))
     assert np.degrees(np.arcsin(sine)) == pytest.approx(48.3, abs=0.05)

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.physics.equations import dissipation, kinematics
+from ballscrew.physics.equations import heat, kinematics
 
 from .numbers import SCREWS
 from .test_equilibrium import F_B, F_RN, F_RS, M_B, M_CN, M_CS, M_ERN, M_ERS, race_torques
@@ -21,11 +21,11 @@ def test_power_in_is_power_dissipated(d_m, d_w, alpha, f):
     at_screw = kinematics.screw_contact_rotation(ball, screw, math.cos(alpha))
     at_nut = kinematics.nut_contact_rotation(ball, orbital, math.cos(alpha))
     taken = (
-        dissipation.hydrodynamic_rolling_power(F_RS, F_RN, v, v)
-        + dissipation.contact_moment_power(M_CS, M_CN, at_screw, at_nut)
-        + dissipation.contact_moment_power(M_ERS, M_ERN, at_screw, at_nut)
-        + dissipation.ball_rubbing_power(M_B, ball)
-        + dissipation.chain_braking_power(F_B, orbital * L)
+        heat.hydrodynamic_rolling_power(F_RS, F_RN, v, v)
+        + heat.contact_moment_power(M_CS, M_CN, at_screw, at_nut)
+        + heat.contact_moment_power(M_ERS, M_ERN, at_screw, at_nut)
+        + heat.ball_rubbing_power(M_B, ball)
+        + heat.chain_braking_power(F_B, orbital * L)
     )
     braking = F_B + M_B * math.cos(alpha) / L
     torque, _ = race_torques(d_m, d_w, alpha, braking)
@@ -33,10 +33,10 @@ def test_power_in_is_power_dissipated(d_m, d_w, alpha, f):
 
 
 def test_powers_are_forces_times_speeds():
-    assert dissipation.hydrodynamic_rolling_power(0.04, 0.05, 0.6, 0.7) == pytest.approx(0.118, rel=1e-14)
-    assert dissipation.contact_moment_power(1e-4, 2e-4, 300.0, 200.0) == pytest.approx(0.07, rel=1e-14)
-    assert dissipation.creep_power(0.3, 0.2, 1e-3, -2e-3) == pytest.approx(-1e-4, rel=1e-12)
-    assert dissipation.spin_power(2e-4, 40.0) == pytest.approx(8e-3, rel=1e-14)
-    assert dissipation.torsion_power(0.5, 4e-3) == pytest.approx(2e-3, rel=1e-14)
-    assert dissipation.ball_rubbing_power(3e-6, 400.0) == pytest.approx(0.0012, rel=1e-14)
-    assert dissipation.chain_braking_power(0.02, 0.5) == pytest.approx(0.01, rel=1e-14)
+    assert heat.hydrodynamic_rolling_power(0.04, 0.05, 0.6, 0.7) == pytest.approx(0.118, rel=1e-14)
+    assert heat.contact_moment_power(1e-4, 2e-4, 300.0, 200.0) == pytest.approx(0.07, rel=1e-14)
+    assert heat.creep_power(0.3, 0.2, 1e-3, -2e-3) == pytest.approx(-1e-4, rel=1e-12)
+    assert heat.spin_power(2e-4, 40.0) == pytest.approx(8e-3, rel=1e-14)
+    assert heat.torsion_power(0.5, 4e-3) == pytest.approx(2e-3, rel=1e-14)
+    assert heat.ball_rubbing_power(3e-6, 400.0) == pytest.approx(0.0012, rel=1e-14)
+    assert heat.chain_braking_power(0.02, 0.5) == pytest.approx(0.01, rel=1e-14)

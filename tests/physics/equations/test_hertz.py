@@ -5,6 +5,7 @@ import math
 import pytest
 
 from ballscrew.physics.equations import hertz
+from support.equations import first_integral_brewe_hamrock
 
 from .numbers import CONTACT_LOAD, EQUIVALENT_MODULUS, RADII_RATIO, ROLLING_RADIUS
 
@@ -98,12 +99,12 @@ def test_hertz_pressure_is_an_ellipsoid():
 def brewe_hamrock(k):
     kappa, E = hertz.ellipticity_brewe_hamrock(k), hertz.second_integral_brewe_hamrock(k)
     major = hertz.semi_major_axis_coefficient(k, kappa, E)
-    return major, major / kappa, hertz.approach_coefficient(k, kappa, hertz.first_integral_brewe_hamrock(k), E)
+    return major, major / kappa, hertz.approach_coefficient(k, kappa, first_integral_brewe_hamrock(k), E)
 
 
 def test_brewe_and_hamrock_are_exact_for_a_circle():
     assert hertz.ellipticity_brewe_hamrock(1.0) == 1.0
-    assert hertz.first_integral_brewe_hamrock(1.0) == pytest.approx(math.pi / 2, rel=RELATIVE)
+    assert first_integral_brewe_hamrock(1.0) == pytest.approx(math.pi / 2, rel=RELATIVE)
     assert hertz.second_integral_brewe_hamrock(1.0) == pytest.approx(math.pi / 2, rel=RELATIVE)
     assert brewe_hamrock(1.0) == pytest.approx(exact_coefficients(1.0), rel=RELATIVE)
 

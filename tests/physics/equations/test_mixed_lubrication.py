@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.physics.equations import mixed_lubrication
+from ballscrew.physics.equations import friction
 
 RELATIVE = 1e-12
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(200)
@@ -25,24 +25,20 @@ def mean_overlap(lam, power=2.5):
 
 def test_zhou_and_hoeprich_share():
     # ZhouHoeprich1991: exp(-B lambda^C)
-    assert mixed_lubrication.asperity_load_share_zhou_hoeprich(0.0, 1.42, 0.8) == 1.0
-    assert mixed_lubrication.asperity_load_share_zhou_hoeprich(1.0, 1.42, 0.8) == pytest.approx(
-        math.exp(-1.42), rel=RELATIVE
-    )
-    assert mixed_lubrication.asperity_load_share_zhou_hoeprich(32.0, 1.0, 0.2) == pytest.approx(
-        math.exp(-2), rel=RELATIVE
-    )
-    assert mixed_lubrication.asperity_load_share_zhou_hoeprich(1e3, 1.42, 0.8) == pytest.approx(0.0, abs=1e-100)
+    assert friction.asperity_load_share_zhou_hoeprich(0.0, 1.42, 0.8) == 1.0
+    assert friction.asperity_load_share_zhou_hoeprich(1.0, 1.42, 0.8) == pytest.approx(math.exp(-1.42), rel=RELATIVE)
+    assert friction.asperity_load_share_zhou_hoeprich(32.0, 1.0, 0.2) == pytest.approx(math.exp(-2), rel=RELATIVE)
+    assert friction.asperity_load_share_zhou_hoeprich(1e3, 1.42, 0.8) == pytest.approx(0.0, abs=1e-100)
 
 
 @pytest.mark.parametrize("lam", [0.0, 0.05, 0.5, 0.8, 1.0, 1.5, 1.9, 1.99, 1.9996])
 def test_balan_share_as_printed(lam):
-    assert mixed_lubrication.asperity_load_share_balan(lam) == pytest.approx(printed(lam), rel=RELATIVE)
+    assert friction.asperity_load_share_balan(lam) == pytest.approx(printed(lam), rel=RELATIVE)
 
 
 @pytest.mark.parametrize("lam", [2.0, 2.01, 2.25, 2.54, 3.0, 10.0])
 def test_balan_share_ends_at_two(lam):
-    assert mixed_lubrication.asperity_load_share_balan(lam) == 0.0
+    assert friction.asperity_load_share_balan(lam) == 0.0
 
 
 def test_balan_share_as_printed_is_no_share_beyond_two():
@@ -53,7 +49,7 @@ def test_balan_share_as_printed_is_no_share_beyond_two():
 
 
 def test_balan_share_never_rises():
-    share = mixed_lubrication.asperity_load_share_balan(np.linspace(0.0, 6.0, 6001))
+    share = friction.asperity_load_share_balan(np.linspace(0.0, 6.0, 6001))
     assert np.all(np.diff(share) <= 0)
     assert share[0] == 1.0
 
@@ -65,13 +61,13 @@ def test_balan_share_never_rises():
 )
 def test_asperity_contact_integral(lam, exact):
     assert mean_overlap(lam) == pytest.approx(exact, rel=1e-3)
-    assert mixed_lubrication.asperity_contact_integral(lam) == pytest.approx(exact, rel=0.11)
+    assert friction.asperity_contact_integral(lam) == pytest.approx(exact, rel=0.11)
 
 
 def test_asperity_contact_integral_ends_at_four():
-    assert mixed_lubrication.asperity_contact_integral(3.99) > 0
-    assert mixed_lubrication.asperity_contact_integral(4.0) == 0.0
-    assert mixed_lubrication.asperity_contact_integral(5.0) == 0.0
+    assert friction.asperity_contact_integral(3.99) > 0
+    assert friction.asperity_contact_integral(4.0) == 0.0
+    assert friction.asperity_contact_integral(5.0) == 0.0
 
 
 @pytest.mark.parametrize("lam", [0.0, 1.0, 2.0])
@@ -93,20 +89,18 @@ def test_asperity_pressure_is_that_of_two_rough_surfaces(lam):
     density = np.exp(-(heights**2) / 2) / math.sqrt(2 * math.pi)
     loads = np.array([load_of_a_summit((h - lam) * sigma) for h in heights])
     pressure = float(np.sum((upper - lam) / 2 * WEIGHTS * N * loads * density))
-    assert mixed_lubrication.asperity_pressure(mean_overlap(lam), E, N, beta, sigma) == pytest.approx(
-        pressure, rel=1e-6
-    )
+    assert friction.asperity_pressure(mean_overlap(lam), E, N, beta, sigma) == pytest.approx(pressure, rel=1e-6)
 
 
 def test_greenwood_and_tripp_share():
-    assert mixed_lubrication.asperity_load_share_greenwood_tripp(2e8, 1e9) == pytest.approx(0.2, rel=RELATIVE)
-    assert mixed_lubrication.asperity_load_share_greenwood_tripp(2e9, 1e9) == 1.0
-    assert mixed_lubrication.asperity_load_share_greenwood_tripp(2e8, 0.0) == 1.0
-    assert mixed_lubrication.asperity_load_share_greenwood_tripp(0.0, 1e9) == 0.0
+    assert friction.asperity_load_share_greenwood_tripp(2e8, 1e9) == pytest.approx(0.2, rel=RELATIVE)
+    assert friction.asperity_load_share_greenwood_tripp(2e9, 1e9) == 1.0
+    assert friction.asperity_load_share_greenwood_tripp(2e8, 0.0) == 1.0
+    assert friction.asperity_load_share_greenwood_tripp(0.0, 1e9) == 0.0
 
 
 def test_load_sharing_friction_coefficient():
     # Balan2015 (A1) with its own coefficients, 0.11 and 0.03
-    assert mixed_lubrication.load_sharing_friction_coefficient(1.0, 0.11, 0.03) == 0.11
-    assert mixed_lubrication.load_sharing_friction_coefficient(0.0, 0.11, 0.03) == 0.03
-    assert mixed_lubrication.load_sharing_friction_coefficient(0.25, 0.11, 0.03) == pytest.approx(0.05, rel=RELATIVE)
+    assert friction.load_sharing_friction_coefficient(1.0, 0.11, 0.03) == 0.11
+    assert friction.load_sharing_friction_coefficient(0.0, 0.11, 0.03) == 0.03
+    assert friction.load_sharing_friction_coefficient(0.25, 0.11, 0.03) == pytest.approx(0.05, rel=RELATIVE)

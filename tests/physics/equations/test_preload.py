@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.physics.equations import geometry, preload, transmission
+from ballscrew.physics.equations import geometry, nut_losses, transmission
 from ballscrew.physics.laws.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG
 
 DATA = Path(__file__).parents[2] / "data"
@@ -26,8 +26,8 @@ def row_id(row):
 
 
 def jis_torque(force, pitch_circle_diameter, lead):
-    K_p = preload.preload_torque_coefficient(geometry.lead_angle(lead, pitch_circle_diameter), 0.05, 0.5)
-    return preload.preload_torque(K_p, force, lead)
+    K_p = nut_losses.preload_torque_coefficient(geometry.lead_angle(lead, pitch_circle_diameter), 0.05, 0.5)
+    return nut_losses.preload_torque(K_p, force, lead)
 
 
 # -- published drag torques -----------------------------------------------------------------------
@@ -56,7 +56,7 @@ def test_double_nuts_of_a_catalogue(row, percent):
 def test_oversize_ball_nuts_of_a_catalogue(row):
     assert_middle(row, 5, OVERSIZE_BALL_DRAG)
     # at 2 % the table has only the largest torque, and that is the rule's own
-    largest = preload.diameter_drag_torque(0.02 * row["dynamic_load_rating_N"], size(row), OVERSIZE_BALL_DRAG)
+    largest = nut_losses.diameter_drag_torque(0.02 * row["dynamic_load_rating_N"], size(row), OVERSIZE_BALL_DRAG)
     assert largest == pytest.approx(row["no_load_torque_2pct_max_Nm"], abs=HALF_DIGIT)
 
 
@@ -65,7 +65,7 @@ def size(row):
 
 
 def assert_middle(row, percent, coefficient):
-    torque = preload.diameter_drag_torque(percent / 100 * row["dynamic_load_rating_N"], size(row), coefficient)
+    torque = nut_losses.diameter_drag_torque(percent / 100 * row["dynamic_load_rating_N"], size(row), coefficient)
     limits = [row[f"no_load_torque_{percent}pct_{limit}_Nm"] for limit in ("min", "max")]
     assert torque == pytest.approx(sum(limits) / 2, abs=HALF_DIGIT)
 
@@ -78,9 +78,9 @@ def assert_middle(row, percent, coefficient):
 def test_two_braced_halves_have_twice_the_friction_of_one(friction_torque, lead):
     force = 1500.0
     eta = transmission.efficiency(transmission.ideal_torque(force, lead), friction_torque)
-    K_p = preload.preload_torque_coefficient_of_halves(eta, transmission.back_driving_efficiency(eta))
+    K_p = nut_losses.preload_torque_coefficient_of_halves(eta, transmission.back_driving_efficiency(eta))
     assert K_p == pytest.approx(2 * (1 / eta - 1), rel=RELATIVE, abs=1e-15)
-    assert preload.preload_torque(K_p, force, lead) == pytest.approx(2 * friction_torque, rel=1e-12, abs=1e-15)
+    assert nut_losses.preload_torque(K_p, force, lead) == pytest.approx(2 * friction_torque, rel=1e-12, abs=1e-15)
 
 
 def test_inclined_plane_of_a_catalogue():
@@ -90,7 +90,7 @@ def test_inclined_plane_of_a_catalogue():
     assert eta == pytest.approx(0.938, abs=1e-3)
     assert eta_b == pytest.approx(0.934, abs=1e-3)
     # of the two printed efficiencies, with their digits
-    K_p = preload.preload_torque_coefficient_of_halves(eta, eta_b)
+    K_p = nut_losses.preload_torque_coefficient_of_halves(eta, eta_b)
     assert K_p == pytest.approx(1 / 0.938 - 0.934, abs=1.1e-3 + 1e-3)
 
 
@@ -98,26 +98,26 @@ def test_inclined_plane_of_a_catalogue():
 
 
 def external_load(force, x):
-    return preload.forward_half_load(force, x) - preload.backward_half_load(force, x)
+    return nut_losses.forward_half_load(force, x) - nut_losses.backward_half_load(force, x)
 
 
 def test_without_load_both_halves_carry_the_preload():
-    assert preload.forward_half_load(1500.0, 0.0) == 1500.0
-    assert preload.backward_half_load(1500.0, 0.0) == 1500.0
+    assert nut_losses.forward_half_load(1500.0, 0.0) == 1500.0
+    assert nut_losses.backward_half_load(1500.0, 0.0) == 1500.0
 
 
 def test_the_relieved_half_lifts_off():
-    assert preload.backward_half_load(1500.0, 1.0) == 0.0
-    assert preload.backward_half_load(1500.0, 1.7) == 0.0
-    assert external_load(1500.0, 1.0) == pytest.approx(preload.lift_off_load(1500.0), rel=RELATIVE)
+    assert nut_losses.backward_half_load(1500.0, 1.0) == 0.0
+    assert nut_losses.backward_half_load(1500.0, 1.7) == 0.0
+    assert external_load(1500.0, 1.0) == pytest.approx(nut_losses.lift_off_load(1500.0), rel=RELATIVE)
     # catalogues: about three times the preload, or 2.83
-    assert preload.lift_off_load(1.0) == pytest.approx(2.83, abs=0.005)
+    assert nut_losses.lift_off_load(1.0) == pytest.approx(2.83, abs=0.005)
 
 
 def test_halves_are_springs_of_power_three_halves():
     # F_f^(2/3) + F_b^(2/3) = 2 F_pr^(2/3) while both carry
     x = np.linspace(0.0, 1.0, 11)
-    both = preload.forward_half_load(900.0, x) ** (2 / 3) + preload.backward_half_load(900.0, x) ** (2 / 3)
+    both = nut_losses.forward_half_load(900.0, x) ** (2 / 3) + nut_losses.backward_half_load(900.0, x) ** (2 / 3)
     np.testing.assert_allclose(both, 2 * 900.0 ** (2 / 3), rtol=RELATIVE)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from ballscrew.physics.components.screw import RATING_CONFORMITY
-from ballscrew.physics.equations import geometry, life, rating
+from ballscrew.physics.equations import geometry, life
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.ratings import ratings_of
 
@@ -75,13 +75,13 @@ def test_formulas_by_hand():
     # d_m 41.4 mm, P_h 10 mm, d_w 6.35 mm, 45°, 20 balls, 3.76 turns, conformity 0.52; computed on paper in mm and N
     alpha, phi = math.pi / 4, math.atan(10 / (math.pi * 41.4))
     gamma, f = 6.35 * math.cos(alpha) / 41.4, 0.52
-    f_1 = rating.contact_angle_factor(alpha)
+    f_1 = life.contact_angle_factor(alpha)
     assert f_1 == pytest.approx(7.642977396, rel=1e-9)
-    f_2 = rating.curvature_factor(gamma)
+    f_2 = life.curvature_factor(gamma)
     assert f_2 == pytest.approx(gamma**0.3 * (1 - gamma) ** 1.39 / (1 + gamma) ** (1 / 3), rel=RELATIVE)
-    f_c = rating.geometry_factor(f_1, f_2, f)
+    f_c = life.geometry_factor(f_1, f_2, f)
     assert f_c == pytest.approx(9.32 * f_1 * f_2 * (1 / (1 - 1 / (2 * f))) ** 0.41, rel=RELATIVE)
-    C_s = rating.screw_turn_rating(f_c, alpha, 20, 6.35e-3, phi)
+    C_s = life.screw_turn_rating(f_c, alpha, 20, 6.35e-3, phi)
     in_mm = f_c * math.cos(alpha) ** 0.86 * 20 ** (2 / 3) * 6.35**1.8 * math.tan(alpha) * math.cos(phi) ** 1.3
     assert C_s == pytest.approx(in_mm, rel=RELATIVE)
 
@@ -91,7 +91,7 @@ def test_formulas_by_hand():
 def test_the_static_rating_leaves_a_dent_of_a_ten_thousandth(gamma, conformity):
     # Palmgren's dent in mm, by Harris2001: 1.3e-7 Q²/D times the sums of curvatures along and across
     D = 6.35
-    Q = rating.static_load_factor(gamma, conformity) * (D / 1000) ** 2
+    Q = life.static_load_factor(gamma, conformity) * (D / 1000) ** 2
     along = 1 / geometry.screw_rolling_radius(D, gamma)
     across = 1 / geometry.transverse_radius(D, conformity)
     dent = 1.3e-7 * Q**2 / D * along * across
@@ -100,25 +100,25 @@ def test_the_static_rating_leaves_a_dent_of_a_ten_thousandth(gamma, conformity):
 
 def test_static_rating_is_that_of_its_balls():
     alpha, phi, k_0, d_w = math.pi / 4, 0.08, 50e6, 6e-3
-    C_0a = rating.static_load_rating(k_0, 20, 3.76, d_w, alpha, phi)
+    C_0a = life.static_load_rating(k_0, 20, 3.76, d_w, alpha, phi)
     assert C_0a == pytest.approx(20 * 3.76 * k_0 * d_w**2 * math.sin(alpha) * math.cos(phi), rel=RELATIVE)
 
 
 @pytest.mark.parametrize("gamma", [0.03, 0.1, 0.16])
 def test_a_turn_fails_where_screw_or_nut_fails(gamma):
     # the rating of a turn is that whose life is the combined life of screw and nut
-    C_s, q, F = 5000.0, rating.turn_rating_ratio(gamma, 0.52, 0.53), 800.0
+    C_s, q, F = 5000.0, life.turn_rating_ratio(gamma, 0.52, 0.53), 800.0
     both = life.combined_life(life.basic_life(C_s, F), life.basic_life(C_s / q, F))
-    assert life.basic_life(rating.turn_rating(C_s, q), F) == pytest.approx(both, rel=RELATIVE)
+    assert life.basic_life(life.turn_rating(C_s, q), F) == pytest.approx(both, rel=RELATIVE)
 
 
 def test_the_screw_fails_before_the_nut():
-    assert rating.turn_rating_ratio(0.1, 0.52, 0.52) == pytest.approx((0.9 / 1.1) ** 1.723, rel=RELATIVE)
+    assert life.turn_rating_ratio(0.1, 0.52, 0.52) == pytest.approx((0.9 / 1.1) ** 1.723, rel=RELATIVE)
     # a wide groove is bad for its own side
-    assert rating.turn_rating_ratio(0.1, 0.54, 0.52) < rating.turn_rating_ratio(0.1, 0.52, 0.52)
-    assert rating.turn_rating_ratio(0.0, 0.53, 0.53) == 1
+    assert life.turn_rating_ratio(0.1, 0.54, 0.52) < life.turn_rating_ratio(0.1, 0.52, 0.52)
+    assert life.turn_rating_ratio(0.0, 0.53, 0.53) == 1
 
 
 def test_turns_add_less_than_in_proportion():
-    assert rating.dynamic_load_rating(1000.0, 1.0) == 1000.0
-    assert rating.dynamic_load_rating(1000.0, 4.0) == pytest.approx(1000 * 4**0.86, rel=RELATIVE)
+    assert life.dynamic_load_rating(1000.0, 1.0) == 1000.0
+    assert life.dynamic_load_rating(1000.0, 4.0) == pytest.approx(1000 * 4**0.86, rel=RELATIVE)

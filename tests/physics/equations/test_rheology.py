@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.physics.equations import rheology, viscosity_temperature
+from ballscrew.physics.equations import rheology
 
 from .numbers import CONTACT_LOAD, EQUIVALENT_MODULUS, PRESSURE_VISCOSITY, ROLLING_RADIUS, VISCOSITY
 
@@ -51,14 +51,14 @@ def test_load_parameter_of_the_paper():
 )
 def test_a_viscosity_grade_is_the_viscosity_at_40_degrees(grade, nu_A, B):
     # ISO 3448: the grade is the kinematic viscosity at 40 degrees C in mm2/s, within 10 %
-    nu = viscosity_temperature.kinematic_viscosity_vogel(313.15, nu_A * 1e-6, B, 273.15 - 95)
+    nu = rheology.kinematic_viscosity_vogel(313.15, nu_A * 1e-6, B, 273.15 - 95)
     assert nu == pytest.approx(grade * 1e-6, rel=0.10)
 
 
 @pytest.mark.parametrize(("celsius", "viscosity"), [(40, 84.6e-3), (50, 52.4e-3), (100, 9.9e-3)])
 def test_viscosity_of_the_reference_oil(celsius, viscosity):
     # Lubricants2023, Table A1: eta0 = 0.062 mPa s exp(1021.7/(T + 101.5517)); the law is the same for both viscosities
-    nu = viscosity_temperature.kinematic_viscosity_vogel(273.15 + celsius, 0.062e-3 / 887.6, 1021.7, 273.15 - 101.5517)
+    nu = rheology.kinematic_viscosity_vogel(273.15 + celsius, 0.062e-3 / 887.6, 1021.7, 273.15 - 101.5517)
     assert rheology.dynamic_viscosity(nu, 887.6) == pytest.approx(viscosity, rel=0.006)
 
 
@@ -125,9 +125,9 @@ def test_roelands_lines_meet_at_the_pole():
 def test_temperature_coefficient_is_the_slope_of_vogels_law(celsius):
     T, step = 273.15 + celsius, 1e-3
     law = (0.062e-3 / 887.6, 1021.7, 273.15 - 101.5517)  # Lubricants2023, Table A1
-    above, below = (viscosity_temperature.kinematic_viscosity_vogel(T + s, *law) for s in (step, -step))
+    above, below = (rheology.kinematic_viscosity_vogel(T + s, *law) for s in (step, -step))
     slope = -math.log(above / below) / (2 * step)
-    assert viscosity_temperature.vogel_temperature_coefficient(T, law[1], law[2]) == pytest.approx(slope, rel=1e-8)
+    assert rheology.vogel_temperature_coefficient(T, law[1], law[2]) == pytest.approx(slope, rel=1e-8)
 
 
 def test_thermal_loading_parameter():

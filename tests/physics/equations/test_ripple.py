@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import kinematics, nut_losses, ripple
+from ballscrew.physics.equations import ball_chain, kinematics, nut_losses
 from ballscrew.physics.laws.frame import bearing_frame, helix_frame
 
 from .numbers import SCREWS
@@ -26,26 +26,30 @@ def test_orders_are_those_of_rolling(name, place):
     along = kinematics.orbital_speed(around, frame.path_radius)
     relative = kinematics.screw_relative_rotation(v, frame.screw_contact_radius)
     gamma, L = frame.curvature_ratio, frame.path_radius
-    assert ripple.cage_order(gamma) == pytest.approx(around / omega, rel=RELATIVE)
-    assert ripple.over_balls_order(gamma) == pytest.approx(relative / omega, rel=RELATIVE)
-    assert ripple.cage_order(gamma) + ripple.over_balls_order(gamma) == pytest.approx(1.0, rel=RELATIVE)
+    assert ball_chain.cage_order(gamma) == pytest.approx(around / omega, rel=RELATIVE)
+    assert ball_chain.over_balls_order(gamma) == pytest.approx(relative / omega, rel=RELATIVE)
+    assert ball_chain.cage_order(gamma) + ball_chain.over_balls_order(gamma) == pytest.approx(1.0, rel=RELATIVE)
     turns = nut_losses.ball_turns(L, gamma, d_w)
-    assert ripple.ball_spot_order(turns) == pytest.approx(2 * kinematics.ball_rotation(v, d_w) / omega, rel=RELATIVE)
+    assert ball_chain.ball_spot_order(turns) == pytest.approx(
+        2 * kinematics.ball_rotation(v, d_w) / omega, rel=RELATIVE
+    )
     advance, pitch = nut_losses.path_advance(L, gamma), 1.03 * d_w
-    assert ripple.ball_pass_order(advance, pitch) == pytest.approx(2 * math.pi * along / omega / pitch, rel=RELATIVE)
+    assert ball_chain.ball_pass_order(advance, pitch) == pytest.approx(
+        2 * math.pi * along / omega / pitch, rel=RELATIVE
+    )
 
 
 def test_loaded_balls_share_the_room_of_a_circuit():
     # 16 ball diameters loaded, 10 in the return, which is full, and one ball of room
-    pitch = ripple.loaded_ball_pitch(16.0, 27.0, 26 - 1, 1.0)
+    pitch = ball_chain.loaded_ball_pitch(16.0, 27.0, 26 - 1, 1.0)
     assert 16.0 / pitch + (27.0 - 16.0) == pytest.approx(25, rel=RELATIVE)
-    assert ripple.loaded_ball_pitch(16.0, 26.0, 26, 1.0) == pytest.approx(1.0, rel=RELATIVE)
+    assert ball_chain.loaded_ball_pitch(16.0, 26.0, 26, 1.0) == pytest.approx(1.0, rel=RELATIVE)
 
 
 def test_a_ball_comes_back_once_in_a_circulation():
     """In a full circuit that is the way round over the way of a ball for each turn."""
     advance, d_w, balls = 9.4e-3, 6e-3, 26
-    order = ripple.circulation_order(ripple.ball_pass_order(advance, d_w), balls)
+    order = ball_chain.circulation_order(ball_chain.ball_pass_order(advance, d_w), balls)
     assert order == pytest.approx(2 * math.pi * advance / (balls * d_w), rel=RELATIVE)
 
 
@@ -59,7 +63,7 @@ def amplitudes(loads, harmonics):
 def test_harmonics_of_a_row_with_sharp_ends(balls):
     places = np.arange(30)[:, None] + (np.arange(20_000) + 0.5) / 20_000
     found = amplitudes(np.sum(places <= balls, axis=0), (1, 2, 3))
-    expected = [abs(ripple.ball_pass_harmonic(m, balls)) for m in (1, 2, 3)]
+    expected = [abs(ball_chain.ball_pass_harmonic(m, balls)) for m in (1, 2, 3)]
     np.testing.assert_allclose(found, expected, atol=2e-5)
     assert (max(expected) < 1e-12) == (balls == 17.0)
 
@@ -70,5 +74,5 @@ def test_harmonics_of_a_row_whose_load_rises(rise):
     places = np.arange(30)[:, None] + (np.arange(20_000) + 0.5) / 20_000
     ramp = np.clip(np.minimum(places, balls - places) / rise, 0.0, 1.0)
     found = amplitudes(np.sum(ramp, axis=0), (1, 2))
-    expected = [abs(ripple.ball_pass_harmonic(m, balls - rise) * np.sinc(m * rise)) for m in (1, 2)]
+    expected = [abs(ball_chain.ball_pass_harmonic(m, balls - rise) * np.sinc(m * rise)) for m in (1, 2)]
     np.testing.assert_allclose(found, expected, atol=1e-6)

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from ballscrew.physics.equations import hertz, rolling
+from support.equations import rigid_regime_share_ellipse
 
 E, R_X = 2.26e11, 1.5e-3
 RELATIVE = 1e-12
@@ -33,7 +34,7 @@ def by_ellipse(k, W, U):
     a = hertz.semi_axis(c_a, R_X, W)
     F_I = rolling.rigid_rolling_force_ellipse(E, R_X, a, beta, kappa, U)
     F_E = rolling.elastic_rolling_force_ellipse(E, R_X, a, beta, U)
-    return F_I, F_E, rolling.blended_rolling_force(F_I, F_E, rolling.rigid_regime_share_ellipse(beta, kappa, W, U))
+    return F_I, F_E, rolling.blended_rolling_force(F_I, F_E, rigid_regime_share_ellipse(beta, kappa, W, U))
 
 
 # -- Biboulet and Houpert --------------------------------------------------------------------------
@@ -77,7 +78,7 @@ def test_the_share_is_that_of_the_published_regime_parameter():
     # BibouletHoupert2010 (14): M = beta^(1/4) kappa W / U^(3/4), kappa = b/a, U twice as here
     kappa, _, beta = shape(36.0)
     M = beta**0.25 / kappa * 2e-4 / (2 * 2e-10) ** 0.75
-    share = rolling.rigid_regime_share_ellipse(beta, kappa, 2e-4, 2e-10)
+    share = rigid_regime_share_ellipse(beta, kappa, 2e-4, 2e-10)
     assert share == pytest.approx(1 / (1 + M / 6.6), rel=RELATIVE)
 
 
@@ -92,7 +93,7 @@ def test_rolling_force_at_rest_and_without_load(law):
 def test_limits_of_the_share():
     for share in (
         lambda W, U: rolling.rigid_regime_share(36.0, W, U),
-        lambda W, U: rolling.rigid_regime_share_ellipse(1.26, 9.9, W, U),
+        lambda W, U: rigid_regime_share_ellipse(1.26, 9.9, W, U),
     ):
         assert share(0.0, 2e-10) == 1.0
         assert share(2e-4, 0.0) == 0.0

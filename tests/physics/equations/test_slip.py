@@ -9,6 +9,7 @@ import pytest
 from ballscrew.physics.equations import friction, slip
 from oracles.contact_patch import ContactPatch, Ellipse
 from oracles.tractions import Coulomb
+from support.equations import line_traction_ratio
 
 RELATIVE = 1e-13
 
@@ -86,14 +87,14 @@ def test_the_slip_vanishes_on_both_lines_and_carries_the_traction(E_s, T):
     creep = t_1 * t_2
     for t in (t_1, t_2):
         assert slip.path_slip_speed(creep, E_s, 1.0, t, t**2) == pytest.approx(0, abs=1e-14)
-    assert slip.line_traction_ratio(t_1, t_2) == pytest.approx(T, rel=0, abs=1e-14)
+    assert line_traction_ratio(t_1, t_2) == pytest.approx(T, rel=0, abs=1e-14)
 
 
 @pytest.mark.parametrize(("E_s", "T"), TWO_LINES)
 def test_forces_of_two_lines_are_integrals(E_s, T):
     t_1, t_2 = lines(E_s, T)
     force, curvature, spin = along_the_line(t_1, t_2)
-    assert slip.line_traction_ratio(t_1, t_2) == pytest.approx(force, rel=0, abs=1e-14)
+    assert line_traction_ratio(t_1, t_2) == pytest.approx(force, rel=0, abs=1e-14)
     assert slip.line_curvature_coefficient(t_1, t_2) == pytest.approx(curvature, rel=0, abs=1e-15)
     assert 3 / 8 * slip.line_spin_coefficient(t_1, t_2) == pytest.approx(spin, rel=0, abs=1e-15)
 
@@ -103,7 +104,7 @@ def test_forces_of_a_single_line_are_integrals(T):
     t_1 = slip.single_line(T)
     force, curvature, spin = along_the_line(-1.0, t_1)
     assert force == pytest.approx(T, rel=0, abs=1e-14)
-    assert slip.line_traction_ratio(-1.0, t_1) == pytest.approx(T, rel=0, abs=1e-14)
+    assert line_traction_ratio(-1.0, t_1) == pytest.approx(T, rel=0, abs=1e-14)
     assert slip.line_curvature_coefficient(-1.0, t_1) == pytest.approx(curvature, rel=0, abs=1e-15)
     assert 3 / 8 * slip.line_spin_coefficient(-1.0, t_1) == pytest.approx(spin, rel=0, abs=1e-15)
 
@@ -113,7 +114,7 @@ def test_forces_of_a_single_line_are_integrals(T):
 def test_without_spin_it_is_the_paper(T):
     Y = slip.half_distance_of_lines(0.0, T)
     assert friction.offset_from_traction(T) == Y
-    assert slip.line_traction_ratio(-Y, Y) == pytest.approx(friction.traction_ratio(Y), rel=0, abs=1e-15)
+    assert line_traction_ratio(-Y, Y) == pytest.approx(friction.traction_ratio(Y), rel=0, abs=1e-15)
     expected = friction.curvature_friction_moment(1.0, 1.0, 1.0, 1.0, Y)
     assert slip.line_curvature_coefficient(-Y, Y) == pytest.approx(expected, rel=0, abs=2e-17)
     assert slip.line_spin_coefficient(-Y, Y) == 0

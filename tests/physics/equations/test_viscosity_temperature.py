@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from ballscrew.physics.components.data_sheet import DataSheet, viscosity_index
-from ballscrew.physics.equations import viscosity_temperature
+from ballscrew.physics.components.oil_grades import DataSheet, viscosity_index
+from ballscrew.physics.equations import rheology
 
 #: SHC 230 (SharpFluids): kinematic viscosity, mm²/s, by °C, to one decimal.
 SHC_230 = {
@@ -48,15 +48,11 @@ def misses(at, low, high):
     for oil in MEASURED:
         numbers = {}
         for celsius, viscosity in zip((30, 60, 100), oil, strict=True):
-            density = viscosity_temperature.oil_density(
-                870, viscosity_temperature.oil_expansion_coefficient(870), celsius + 273.15, 288.15
-            )
-            numbers[celsius] = viscosity_temperature.walther_number(viscosity * 1e-3 / density)
-        slope = viscosity_temperature.walther_slope(low + 273.15, numbers[low], high + 273.15, numbers[high])
-        line = viscosity_temperature.walther_number_at(at + 273.15, low + 273.15, numbers[low], slope)
-        viscosities = [
-            viscosity_temperature.kinematic_viscosity_of_walther_number(number) for number in (line, numbers[at])
-        ]
+            density = rheology.oil_density(870, rheology.oil_expansion_coefficient(870), celsius + 273.15, 288.15)
+            numbers[celsius] = rheology.walther_number(viscosity * 1e-3 / density)
+        slope = rheology.walther_slope(low + 273.15, numbers[low], high + 273.15, numbers[high])
+        line = rheology.walther_number_at(at + 273.15, low + 273.15, numbers[low], slope)
+        viscosities = [rheology.kinematic_viscosity_of_walther_number(number) for number in (line, numbers[at])]
         found.append(viscosities[0] / viscosities[1] - 1)
     return found
 
@@ -70,15 +66,13 @@ def test_measured_oils_between_and_beyond_two_points():
 
 def test_the_exponential_is_as_large_as_the_docstring_says():
     for viscosity, share in ((2e-6, 0.0003), (1.5e-6, 0.002), (1e-6, 0.013)):
-        number = viscosity_temperature.walther_number(viscosity)
+        number = rheology.walther_number(viscosity)
         assert 1 - (1e6 * viscosity + 0.7) / number == pytest.approx(share, rel=0.1)
 
 
 @pytest.mark.parametrize("viscosity", [1e-6, 1.5e-6, 2e-6, 5e-6])
 def test_the_inverse_of_the_standard(viscosity):
-    estimate = viscosity_temperature.kinematic_viscosity_of_walther_number(
-        viscosity_temperature.walther_number(viscosity)
-    )
+    estimate = rheology.kinematic_viscosity_of_walther_number(rheology.walther_number(viscosity))
     assert estimate == pytest.approx(viscosity, rel=1e-10 if viscosity >= 5e-6 else 3e-4)
 
 
@@ -97,16 +91,14 @@ def test_temperature_coefficient_is_the_slope_of_the_line(celsius):
 
 def test_viscosity_index_of_the_examples():
     # ASTM D2270, 5.1.4 and 6.1.4: L = 119.94, H = 69.48 and VI = 92.43; H = 28.97 and VI = 156.37
-    L = viscosity_temperature.reference_viscosity(8.86e-6, 0.41858, 16.1558, -56.04)
-    H = viscosity_temperature.reference_viscosity(8.86e-6, 0.05794, 10.5156, -28.24)
+    L = rheology.reference_viscosity(8.86e-6, 0.41858, 16.1558, -56.04)
+    H = rheology.reference_viscosity(8.86e-6, 0.05794, 10.5156, -28.24)
     assert pytest.approx(119.94, abs=0.02) == 1e6 * L
     assert pytest.approx(69.48, abs=0.005) == 1e6 * H
     assert viscosity_index(73.30e-6, 8.86e-6) == pytest.approx(92.43, abs=0.005)
     assert round(viscosity_index(22.83e-6, 5.05e-6)) == 156
     # with the H of Table 1 itself, to the digits that the standard prints
-    assert viscosity_temperature.viscosity_index_above_100(22.83e-6, 5.05e-6, 28.97e-6) == pytest.approx(
-        156.37, abs=0.01
-    )
+    assert rheology.viscosity_index_above_100(22.83e-6, 5.05e-6, 28.97e-6) == pytest.approx(156.37, abs=0.01)
 
 
 @pytest.mark.parametrize(
@@ -130,7 +122,5 @@ def test_density_as_in_degrees_fahrenheit(celsius):
     alpha = 0.34878 / 880.0
     there = 880.0 * math.exp(-alpha * (fahrenheit - 60) * (1 + 0.8 * alpha * (fahrenheit - 60)))
     at_15 = 880.0 * math.exp(-alpha * -1.0 * (1 - 0.8 * alpha))
-    expansion = viscosity_temperature.oil_expansion_coefficient(at_15)
-    assert viscosity_temperature.oil_density(at_15, expansion, celsius + 273.15, 288.15) == pytest.approx(
-        there, rel=1e-4
-    )
+    expansion = rheology.oil_expansion_coefficient(at_15)
+    assert rheology.oil_density(at_15, expansion, celsius + 273.15, 288.15) == pytest.approx(there, rel=1e-4)

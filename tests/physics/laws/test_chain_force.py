@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
+from ballscrew.engine.uncertainty.uncertain_value import default_distributions
 from ballscrew.physics.equations import ball_chain
 from ballscrew.physics.laws.ball_chain import ChainBallForce
 from ballscrew.physics.laws.traits import law_traits

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.laws.contact import Contact
-from ballscrew.physics.laws.inlet import Inlet
+from ballscrew.physics.laws.contact import Contact, Inlet
 from ballscrew.physics.laws.protocols import InletFactors
 
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
@@ -54,7 +53,7 @@ def test_a_fuller_state_keeps_what_is_known(contact):
     ("slot", "given", "said"),
     [
         ("rolling", "houpert", r"model\.rolling: must be a law, not its name \(houpert\) · from "
-         r"ballscrew\.physics\.laws\.rolling import houpert_rolling, and give rolling=houpert_rolling"),
+         r"ballscrew\.physics\.laws\.contact import houpert_rolling, and give rolling=houpert_rolling"),
         ("rolling", "haupert", r'model\.rolling: .* \(haupert\) · did you mean "houpert"\? in a case file'),
         ("film", "hamrock-dowson", r"import HamrockDowson, and give film=HamrockDowson\(\)"),
         ("film", bs.HamrockDowson, r"model\.film: must be a law \(the class HamrockDowson\) · make one of it"),

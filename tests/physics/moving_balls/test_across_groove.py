@@ -8,11 +8,11 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import SCREW
-from ballscrew.physics.equations import across_groove, deflection
+from ballscrew.physics.equations import across_groove, rigidity
 from ballscrew.physics.friction.across_groove import friction_across, preload_off_line
 from ballscrew.physics.laws.frame import helix_frame
-from ballscrew.physics.moving_balls.across_groove import off_line_balls
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
+from ballscrew.physics.moving_balls.reversal import off_line_balls
 from ballscrew.physics.moving_balls.ripple import torque_ripple
 from oracles.ball_in_grooves import HalfNut
 
@@ -181,7 +181,7 @@ def test_a_set_preload_is_swept_as_it_is_evaluated():
 def test_four_contacts_keep_the_ball_on_its_line():
     """The other flanks are far stiffer across than the leaning normals: the slope of Hertz against Q over an arm."""
     screw, load = SCREWS["40x10"]
-    A = deflection.groove_centre_distance(0.54, 0.54, 6e-3)
+    A = rigidity.groove_centre_distance(0.54, 0.54, 6e-3)
     approach = 3.4e-6
     of_flanks = 1.5 * load / approach
     leaning = 2 / across_groove.groove_compliance(load, A / 2, A / 2) * 2

@@ -12,6 +12,7 @@ from ballscrew.physics.equations import ball_chain
 from ballscrew.physics.laws.ball_chain import ChainBallForce
 from ballscrew.physics.moving_balls.chain import Circuit, chain_run
 from ballscrew.physics.moving_balls.loaded_zone import Groove, loaded_zone
+from support.equations import mirrored, speed_deviation
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 MODEL = bs.FrictionModel.reference()
@@ -67,7 +68,7 @@ def share_without_gap(zone, amplitude):
     gamma = zone.ball_diameter * math.cos(alpha) / zone.pitch_circle_diameter * math.cos(zone.lead_angle) ** 2
     distance = zone.centre_distance + zone.nominal_approach
     change = ball_chain.contact_angle_change(amplitude, 0.0, alpha, distance)
-    epsilon = ball_chain.speed_deviation(gamma, alpha, change, 0.0, zone.path_radius)
+    epsilon = speed_deviation(gamma, alpha, change, 0.0, zone.path_radius)
     c = zone.creep.at(np.array([zone.nominal_load]))[0][0]
     z_1 = ball_chain.balls_of_a_turn(zone.path_radius, zone.ball_diameter)
     return ball_chain.chain_force_share(c, epsilon, z_1, 1.0)
@@ -138,7 +139,7 @@ def test_a_mirror_changes_nothing():
     there = loaded_zone(MODEL, part, OIL, axial_load=-100.0, screw_speed=-OMEGA, **given)
     angle = here.length / here.path_radius
     there = dataclasses.replace(
-        there, nut_groove=here.nut_groove.mirrored(angle), screw_groove=here.screw_groove.mirrored(angle)
+        there, nut_groove=mirrored(here.nut_groove, angle), screw_groove=mirrored(here.screw_groove, angle)
     )
     balls = round(here.length / here.ball_diameter) + 8
     runs = [chain_run(Circuit(z, balls, (balls + 0.05) * z.ball_diameter, 5e-3), OMEGA) for z in (here, there)]

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy import integrate
 
 from ballscrew.basis.errors import InputError
-from ballscrew.physics.equations import friction_states
+from ballscrew.physics.equations import presliding
 from ballscrew.physics.moving_balls.friction_states import (
     Dahl,
     FitError,
@@ -71,7 +71,7 @@ def test_dahl_solves_its_equation(initial_torque):
     angles = np.linspace(0.0, 0.3, 31)
     step = 1e-6
     here, less, more = (
-        friction_states.dahl_torque(sigma_0, M_c, initial_torque, angles + shift) for shift in (0.0, -step, step)
+        presliding.dahl_torque(sigma_0, M_c, initial_torque, angles + shift) for shift in (0.0, -step, step)
     )
     assert (more - less) / (2 * step) == pytest.approx(sigma_0 * (1 - here / M_c), rel=1e-8, abs=1e-9)
     assert here[0] == pytest.approx(initial_torque, abs=1e-16)
@@ -85,9 +85,9 @@ def test_lugre_at_a_steady_speed():
     )
     z = done.y[0, -1]
     rate = omega * (1 - sigma_0 * z / M_c)
-    wound = friction_states.dahl_torque(sigma_0, M_c, -M_c, omega * time)
+    wound = presliding.dahl_torque(sigma_0, M_c, -M_c, omega * time)
     assert sigma_0 * z == pytest.approx(wound, rel=1e-9)
-    found = friction_states.lugre_torque(wound, M_c, sigma_1, sigma_2, omega)
+    found = presliding.lugre_torque(wound, M_c, sigma_1, sigma_2, omega)
     assert found == pytest.approx(sigma_0 * z + sigma_1 * rate + sigma_2 * omega, rel=1e-9)
 
 
@@ -98,7 +98,7 @@ def test_lugre_at_a_steady_speed():
 @pytest.mark.parametrize("stiffness", [0.05, 3.0, 400.0])
 def test_dahl_finds_its_own_stiffness(stiffness, from_rest):
     start = 0.0 if from_rest else -0.2
-    curve = curve_of(lambda at: friction_states.dahl_torque(stiffness, 0.2, start, at), 0.2, from_rest=from_rest)
+    curve = curve_of(lambda at: presliding.dahl_torque(stiffness, 0.2, start, at), 0.2, from_rest=from_rest)
     found = fit_dahl(curve)
     assert found.model.presliding_stiffness == pytest.approx(stiffness, rel=1e-6)
     assert found.error.largest < 1e-6
@@ -370,7 +370,7 @@ def test_no_first_range_where_nothing_was_sampled():
     curve = WindingUp(
         screw_angle=angles,
         travel=angles,
-        torque=friction_states.dahl_torque(50.0, 0.1, -0.1, angles),
+        torque=presliding.dahl_torque(50.0, 0.1, -0.1, angles),
         coulomb_torque=0.1,
     )
     assert fit_dahl_first(curve) is None

@@ -11,6 +11,7 @@ from ballscrew.physics.equations import ball_chain, kinematics
 from ballscrew.physics.friction.balls import ball_friction
 from ballscrew.physics.moving_balls.loaded_zone import Groove, creep, loaded_zone
 from ballscrew.physics.solvers.line_slip import line_slip
+from support.equations import speed_deviation
 
 ROWS = [
     "rexroth-16x5x3-4-double",
@@ -108,7 +109,7 @@ def test_the_load_follows_from_the_deviations():
         change = ball_chain.contact_angle_change(axial, radial, alpha, A)
         assert found.contact_angle - nominal.contact_angle == pytest.approx(change, rel=2e-3)
         gamma = MODEL.laws.frame(dataclasses.replace(part, contact_angle=alpha)).curvature_ratio
-        deviation = ball_chain.speed_deviation(gamma, alpha, change, radial / 2, zone.path_radius)
+        deviation = speed_deviation(gamma, alpha, change, radial / 2, zone.path_radius)
         assert found.speed / nominal.speed - 1 == pytest.approx(deviation, rel=2e-3)
 
 

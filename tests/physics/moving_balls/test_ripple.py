@@ -9,7 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.physics.components.screw import SINGLE_NUT
-from ballscrew.physics.equations.ripple import ball_pass_harmonic, ball_pass_order
+from ballscrew.physics.equations.ball_chain import ball_pass_harmonic, ball_pass_order
 from ballscrew.physics.moving_balls.chain import Circuit, chain_run
 from ballscrew.physics.moving_balls.loaded_zone import loaded_zone
 from ballscrew.physics.moving_balls.ripple import (
@@ -26,6 +26,7 @@ from ballscrew.physics.moving_balls.ripple import (
     torques_of,
     with_defect,
 )
+from support.equations import amplitude_of, mirrored
 
 MODEL = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("ISO VG 100")
@@ -153,7 +154,7 @@ def test_parts_sum_and_a_perfect_nut_has_the_drag_of_the_model():
     parted = MODEL.parted(SCREW, OIL, axial_load=0.0, screw_speed=OMEGA)
     # 30.7 balls' lengths, 20 of them loaded, of which the room and the two reliefs take 0.8
     assert found.parts["balls"] == pytest.approx(float(parted.screw_torque) * 19.2 / 20, rel=0.01)
-    assert found.amplitude_of("screw") < 0.01 * ripple().amplitude_of("screw")
+    assert amplitude_of(found, "screw") < 0.01 * amplitude_of(ripple(), "screw")
 
 
 @pytest.mark.slow
@@ -185,7 +186,7 @@ def test_half_the_step_and_twice_the_length_are_the_same_ripple():
         assert changed.mean == pytest.approx(usual.mean, rel=0.005)
         assert changed.deviation == pytest.approx(usual.deviation, rel=0.05)
         assert changed.peak_to_peak == pytest.approx(usual.peak_to_peak, rel=0.05)
-        assert changed.amplitude_of("screw") == pytest.approx(usual.amplitude_of("screw"), rel=0.05)
+        assert amplitude_of(changed, "screw") == pytest.approx(amplitude_of(usual, "screw"), rel=0.05)
 
 
 @pytest.mark.slow
@@ -198,7 +199,7 @@ def test_a_mirror_changes_nothing():
     )
     angle = here.length / here.path_radius
     there = dataclasses.replace(
-        there, nut_groove=here.nut_groove.mirrored(angle), screw_groove=here.screw_groove.mirrored(angle)
+        there, nut_groove=mirrored(here.nut_groove, angle), screw_groove=mirrored(here.screw_groove, angle)
     )
     spall = Spall(2e-3, 2e-6)
     torques = []

@@ -8,8 +8,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.physics.components.nut import Bodies, DoubleNut, OversizeBallNut, SingleNut
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.listed_nut import nut_of
-from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.physics.sizing.ratings import nut_of, ratings_of
 
 ROW = CatalogueRow(name="40x10", nominal_diameter=0.040, lead=0.010, ball_diameter=0.006, turns=6)
 RATED = dataclasses.replace(ROW, dynamic_load_rating=60e3)

@@ -10,10 +10,9 @@ from ballscrew.basis.references import bibliography
 from ballscrew.physics.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.equations import life, shaft
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.check_table import HOUR
-from ballscrew.physics.sizing.checks import Check, all_hold, checks, loads_of_halves, mean_load, verdict_of
-from ballscrew.physics.sizing.dn_limits import GENERAL, MM_RPM, printed_limit, printed_limits, speed_limit_of
+from ballscrew.physics.sizing.checks import HOUR, Check, all_hold, checks, loads_of_halves, mean_load, verdict_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
+from ballscrew.physics.sizing.makers_tables import GENERAL, MM_RPM, printed_limit, printed_limits, speed_limit_of
 from ballscrew.physics.sizing.ratings import ratings_of
 
 RPM = math.tau / 60

@@ -7,7 +7,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases.case_files import nut_tables
-from ballscrew.physics.sizing.derived import LISTED, derived
+from ballscrew.physics.sizing.judged import LISTED, derived
 
 NOTHING = dict.fromkeys(LISTED, math.nan)
 POINT = {"axial_load": -4000.0, "screw_speed": 60.0, "remaining_preload": 500.0, "idle_torque": 0.5, "idle_losses": 0.1}
@@ -34,7 +34,7 @@ def test_what_is_listed_comes_first():
 @pytest.mark.parametrize("spacers", [False, True])
 def test_the_ratings_are_those_of_a_screw_of_no_catalogue(spacers):
     screw = ROW.screw(nut=bs.DoubleNut(preload=3000.0, spacer_balls=spacers))
-    found, made = derived(screw, **POINT, listed=NOTHING), nut_tables.ratings(screw, None)
+    found, made = derived(screw, **POINT, listed=NOTHING), nut_tables.screw_ratings(screw, None)
     assert (found["dynamic_load_rating"], found["static_load_rating"]) == pytest.approx(made, rel=1e-14)
     assert found["root_diameter"] == nut_tables.root_diameter(screw, {})
 

@@ -11,11 +11,11 @@ import pytest
 import ballscrew as bs
 from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
-from ballscrew.files.tables.column_names import YES
-from ballscrew.physics.sizing import own_nut, table_balls
+from ballscrew.files.tables.headings import YES
+from ballscrew.physics.sizing import own_nut
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
+from ballscrew.physics.sizing.own_nut import BY_TABLE, with_table_balls
 from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.physics.sizing.table_balls import BY_TABLE, with_table_balls
 from ballscrew.physics.solvers.swelling import ball_of_rating
 from ballscrew.questions.validate.compute import shipped_rows
 from support.rules import for_each
@@ -295,12 +295,12 @@ def test_numbers_that_no_nut_has(faulty, words):
 )
 def test_another_size_of_balls_must_pay(other, cost, is_kept):
     """Of 20 grooves three fit another ball: it stays where they save more than 6, or 9 beyond inches and metric."""
-    inch, beside = (np.argmin(np.abs(table_balls.BALLS - size)) for size in (0.25 * 0.0254, 0.28125 * 0.0254))
-    ball = beside if other == "inch" else np.argmin(np.abs(table_balls.BALLS - 7.0e-3))
-    costs = np.full((20, table_balls.BALLS.size, 5, table_balls._FACTORS.size), np.inf)
+    inch, beside = (np.argmin(np.abs(own_nut.BALLS - size)) for size in (0.25 * 0.0254, 0.28125 * 0.0254))
+    ball = beside if other == "inch" else np.argmin(np.abs(own_nut.BALLS - 7.0e-3))
+    costs = np.full((20, own_nut.BALLS.size, 5, own_nut._FACTORS.size), np.inf)
     costs[:, :, 0, 0] = 50.0
     costs[:17, inch, 0, 0] = 0.0
     costs[17:, inch, 0, 0] = cost
     costs[17:, ball, 0, 0] = 0.0
-    choice = table_balls._choice(costs, np.ones(20, dtype=int))
+    choice = own_nut._choice(costs, np.ones(20, dtype=int))
     assert {*choice.balls.tolist()} == ({inch, ball} if is_kept else {inch})

@@ -7,11 +7,16 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.references import bibliography
 from ballscrew.physics.components.nut import DoubleNut
-from ballscrew.physics.sizing.accuracy_factors import factor_of_make, factors_of_makes, factors_of_standard
 from ballscrew.physics.sizing.checks import SOURCES, Check, checks
-from ballscrew.physics.sizing.dn_limits import printed_limit, speed_limit_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
-from ballscrew.physics.sizing.sources import QUALIFICATIONS
+from ballscrew.physics.sizing.makers_tables import (
+    QUALIFICATIONS,
+    factor_of_make,
+    factors_of_makes,
+    factors_of_standard,
+    printed_limit,
+    speed_limit_of,
+)
 
 #: The source of each check, and the reason.
 EXPECTED = {

@@ -10,6 +10,7 @@ import ballscrew as bs
 from ballscrew.physics.equations import slip
 from ballscrew.physics.laws.frame import bearing_frame
 from ballscrew.physics.solvers.line_slip import creep_of_lines, line_slip, pure_rolling_lines
+from support.equations import line_traction_ratio
 
 REFERENCE = bs.FrictionModel.reference()
 LINE = dataclasses.replace(REFERENCE, slip=line_slip)
@@ -21,7 +22,7 @@ def coefficients(spin_parameter, traction_ratio):
     lines = pure_rolling_lines(spin_parameter, traction_ratio)
     return np.array(
         [
-            slip.line_traction_ratio(lines.lower, lines.upper),
+            line_traction_ratio(lines.lower, lines.upper),
             slip.line_curvature_coefficient(lines.lower, lines.upper),
             slip.line_spin_coefficient(lines.lower, lines.upper),
         ]

@@ -10,7 +10,7 @@ from scipy.optimize import root
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.physics.equations import geometry, hertz, preload
+from ballscrew.physics.equations import geometry, hertz, nut_losses
 from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers import ball_springs, load_distribution
 from ballscrew.physics.solvers.load_distribution import ball_loads, preload_of
@@ -282,11 +282,11 @@ def test_two_sides_braced_against_each_other(nut):
     loads = 500 * np.array([0.0, 0.1, 1.0, 2.0, 2.8, 3.5, 6.0])
     r = ball_loads(PAPER, nut, loads, constant_contact_angle=True)
     x = r.deflection / unit
-    assert r.remaining_preload == pytest.approx(preload.backward_half_load(500.0, x), rel=1e-10, abs=1e-10)
-    assert r.remaining_preload + loads == pytest.approx(preload.forward_half_load(500.0, x), rel=1e-11)
+    assert r.remaining_preload == pytest.approx(nut_losses.backward_half_load(500.0, x), rel=1e-10, abs=1e-10)
+    assert r.remaining_preload + loads == pytest.approx(nut_losses.forward_half_load(500.0, x), rel=1e-11)
     assert r.remaining_preload[0] == pytest.approx(500.0, rel=1e-12)
     assert np.all(r.remaining_preload[-2:] == 0)
-    assert r.lift_off_load == pytest.approx(np.full(7, preload.lift_off_load(500.0)), rel=1e-12)
+    assert r.lift_off_load == pytest.approx(np.full(7, nut_losses.lift_off_load(500.0)), rel=1e-12)
     # two springs of one stiffness without load, one beyond lift-off
     assert r.rigidity[0] == pytest.approx(3 * 500 / unit, rel=1e-10)
 
@@ -295,7 +295,7 @@ def test_two_sides_braced_against_each_other(nut):
 def test_a_contact_angle_that_rises_puts_lift_off_further_away(nut):
     """More than 2^1.5, and more with more preload: 4 to 5 % with 1 kN on the paper's screw, none in the limit."""
     forces = np.array([1e-3, 10.0, 1000.0])
-    ratio = ball_loads(PAPER, nut(forces), 0.0).lift_off_load / preload.lift_off_load(forces)
+    ratio = ball_loads(PAPER, nut(forces), 0.0).lift_off_load / nut_losses.lift_off_load(forces)
     assert np.all(np.diff(ratio) > 0)
     assert ratio[0] == pytest.approx(1.0, abs=1e-5)
     assert 1.03 < ratio[2] < 1.05

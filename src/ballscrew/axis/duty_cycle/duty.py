@@ -1,4 +1,7 @@
-"""A duty: what a cycle of motion asks of the motor, what it costs in energy, and what wears."""
+"""A duty: what a cycle of motion asks of the motor, what it costs in energy, and what wears.
+
+A duty of one operating point: the nut goes to and fro at one speed, under one load.
+"""
 
 from __future__ import annotations
 
@@ -18,20 +21,18 @@ from ballscrew.axis.duty_cycle.screw_friction import (
     ScrewFriction,
     distinct_states,
 )
-from ballscrew.axis.motion.profiles import Motion
-from ballscrew.axis.motion.states import MotionStates, Numbers
-from ballscrew.axis.motion.turns import largest_within, sign_changes
+from ballscrew.axis.motion.profiles import Motion, Segment, Segments
+from ballscrew.axis.motion.states import MotionStates, Numbers, largest_within, sign_changes
 from ballscrew.axis.supports.guide import GUIDES, SEALS
 from ballscrew.basis.arrays import ByValue, compact, lazy, total
 from ballscrew.basis.errors import MISSING, Fault, accepts_units, raise_if_any
-from ballscrew.basis.quantities import Duration, Energy, Length, Power, Ratio
+from ballscrew.basis.quantities import AngularSpeed, Duration, Energy, Force, Length, Power, Ratio
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.operating_state import FrictionElement, OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.friction.element import FrictionElement
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.starvation import NEARLY_ALL, differs
+from ballscrew.physics.friction.validity import NEARLY_ALL, differs
 
 #: Parts of the torque that store energy and give it back.
 STORED = ("acceleration of the mass", "acceleration of what turns", "gravity")
@@ -440,19 +441,6 @@ class Duty(ByValue):
         """Change of kinetic and potential energy over the cycle by the parts of the torque, J; zero where it closes."""
         return float(sum(self.energy_by[name] for name in STORED))
 
-    @lazy
-    def mechanical_energy(self) -> Energy:
-        r"""Change of kinetic and potential energy by the states themselves, J.
-
-        :math:`\frac12 (m + J (2 \pi i/P_h)^2) \Delta v^2 + F_g \Delta x`, phase by phase: a jump of the speed between
-        two phases is left out.
-        """
-        turns = 2 * math.pi * self.axis.transmission_ratio / float(self.driven.lead)
-        mass = self.axis.moving_mass + self.axis.turning_inertia * turns**2
-        kinetic = sum(mass * (after**2 - before**2) / 2 for before, after in self.states.speeds_of_ends)
-        rise = self.states.integral(self.states.speed)
-        return float(kinetic + self.axis.gravity_force * rise)
-
     @property
     def summary(self) -> Mapping[str, Any]:
         """The numbers of the cycle by name, SI."""
@@ -468,3 +456,38 @@ def _distinct(axial_load: Numbers, screw_speed: Numbers, temperature: Numbers | 
     warm = np.full_like(screw_speed, np.nan) if temperature is None else temperature
     (load, speed, degrees), back = distinct_states(axial_load, screw_speed, warm)
     return OperatingState(load, speed, None if temperature is None else degrees), back
+
+
+@accepts_units("operation")
+def to_and_fro(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant | None = None,
+    *,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    stroke: Length,
+    also: Mapping[str, FrictionElement] | None = None,
+) -> Duty:
+    """The duty of a screw that turns at one speed over a stroke and back, with no mass and no rest.
+
+    Returns a :class:`~ballscrew.axis.duty_cycle.duty.Duty`. ``model``, ``screw``, ``lubricant`` and ``also``, further
+    elements on the shaft, are those of :func:`~ballscrew.axis.duty_cycle.duty.duty`. ``axial_load`` (N),
+    ``screw_speed`` (rad/s; its sign is that of the first way) and ``stroke`` (m) are one number each. The load keeps
+    its direction, as a weight does: one way the screw lifts it, the other way it drives the screw.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a speed of zero, and for a stroke that is not positive.
+    """
+    faults: list[Fault] = []
+    if not abs(screw_speed) > 0:
+        faults.append(Fault("operation.screw_speed", "is zero: nothing warms up", "0 rpm", "give a speed"))
+    if not stroke > 0:
+        faults.append(Fault("surroundings.stroke", "must be positive", f"{stroke:g} m", "give half the shaft"))
+    raise_if_any(faults)
+    speed = abs(float(screw_speed)) * float(screw.lead) / (2 * math.pi)
+    first = math.copysign(1.0, screw_speed)
+    ways = tuple(
+        Segment(name=name, duration=stroke / speed, speed=sign * speed, force=float(axial_load))
+        for name, sign in (("forth", first), ("back", -first))
+    )
+    return duty(model, screw, lubricant, axis=Axis(mass=0.0), motion=Segments(segments=ways), also=also)

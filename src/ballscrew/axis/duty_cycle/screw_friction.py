@@ -20,7 +20,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import transmission
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.starvation import least_replenished
+from ballscrew.physics.friction.validity import least_replenished
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: More balls than this in all points together, and the model is compiled.

@@ -11,7 +11,7 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.motion.trajectory import Trajectory, faults_of_times
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.files.tables import decimals
+from ballscrew.files.tables.cells import evidence
 from ballscrew.files.tables.headings import Column, checked, headings_in, unused
 from ballscrew.files.tables.sheets import unreadable
 from ballscrew.files.torque_logs.columns import WITHIN, Layout
@@ -67,7 +67,7 @@ def read_trajectory(path: Path) -> Trajectory:
                 {},
                 first.line,
                 len(first.cells),
-                decimals.evidence(texts),
+                evidence(texts),
                 "",
                 unused(first, good, body[:WITHIN]),
                 frozenset(),

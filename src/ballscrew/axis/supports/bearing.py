@@ -16,9 +16,8 @@ from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Mask, 
 from ballscrew.basis.records import Record
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut, SingleNut
-from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.operating_state import ElementFriction, FrictionElement, OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction.element import ElementFriction, FrictionElement
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
@@ -36,6 +35,17 @@ Bore = Annotated[
 ]
 OutsideDiameter = Annotated[
     Length, Info("D", "outside diameter of the bearing", "mm", above=0, hint="lengths are positive", usual=(3e-3, 1.0))
+]
+Rows = Annotated[
+    Count,
+    Info("i", "rows of balls, half of them against each direction", at_least=1, whole=True, hint="1, 2 or 4"),
+]
+PairPreload = Annotated[
+    Force,
+    Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N for none", usual=(0.0, 1e5)),
+]
+BallRoughness = Annotated[
+    Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="0.02 um to 0.1 um")
 ]
 SealTorque = Annotated[
     Torque,
@@ -72,22 +82,25 @@ def faults_of_arrays(section: str, part: Any, *names: str) -> list[Fault]:
     ]
 
 
-def sizes_fault(section: str, bore: Any, outside_diameter: Any) -> list[Fault]:
-    """Fault of an outside diameter that does not exceed the bore."""
-    if outside_diameter > bore:
-        return []
-    given = shown(outside_diameter, "m")
-    return [Fault(f"{section}.outside_diameter", "must exceed the bore", given, "give bore and outside diameter")]
+def faults_of_sizes(section: str, bearing: Any) -> list[Fault]:
+    """Faults of an outside diameter that does not exceed the bore, and of rows that are no pairs."""
+    faults: list[Fault] = []
+    if not bearing.outside_diameter > bearing.bore:
+        given, remedy = shown(bearing.outside_diameter, "m"), "give bore and outside diameter"
+        faults.append(Fault(f"{section}.outside_diameter", "must exceed the bore", given, remedy))
+    if bearing.rows > 1 and bearing.rows % 2:
+        faults.append(Fault(f"{section}.rows", "must be one or even", f"{bearing.rows:g}", "give 1, 2 or 4"))
+    return faults
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class SupportBearing(ByValue):
     r"""An angular-contact or axial angular-contact ball bearing on the shaft: one row, or a preloaded pair of rows.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement`: called with an operating state, whose load is the
-    axial one of the bearing, it returns the friction torque about the shaft, by mechanism. The contacts are those of
-    the screw, in a plane: :math:`z Q \sin\alpha = F` for one row; the two sides of a preloaded pair are braced as the
-    halves of a double nut. ``rows`` is one, or an even number, half of them on each side.
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement`: called with an operating state, whose load
+    is the axial one of the bearing, it returns the friction torque about the shaft, by mechanism. The contacts are
+    those of the screw, in a plane: :math:`z Q \sin\alpha = F` for one row; the two sides of a preloaded pair are braced
+    as the halves of a double nut. ``rows`` is one, or an even number, half of them on each side.
 
     What catalogues leave out is assumed, and no source stands behind it: balls of 0.3 (D − d) that fill 0.9 of the
     circle (of axial angular-contact bearings they are smaller and more: give them where they are known), a conformity
@@ -113,14 +126,8 @@ class SupportBearing(ByValue):
     ]
     #: The oil of the bearing.
     lubricant: Lubricant
-    rows: Annotated[
-        Count,
-        Info("i", "rows of balls, half of them against each direction", at_least=1, whole=True, hint="1, 2 or 4"),
-    ] = 2
-    preload: Annotated[
-        Force,
-        Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N for none", usual=(0.0, 1e5)),
-    ] = 0.0
+    rows: Rows = 2
+    preload: PairPreload = 0.0
     ball_diameter: Annotated[
         Length | None,
         Info("d_w", "ball diameter", "mm", above=0, hint="0.3 (D - d) where it is not known", usual=(5e-4, 0.1)),
@@ -135,9 +142,7 @@ class SupportBearing(ByValue):
     race_roughness: Annotated[
         Length, Info(r"\sigma_r", "RMS roughness of the races", "um", above=0, hint="0.05 um to 0.3 um")
     ] = 0.3e-6
-    ball_roughness: Annotated[
-        Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="0.02 um to 0.1 um")
-    ] = 0.08e-6
+    ball_roughness: BallRoughness = 0.08e-6
     seal_torque: SealTorque = 0.0
     #: A model of the friction of screws, for its laws of contact; by default the reference.
     model: FrictionModel | None = None
@@ -148,9 +153,7 @@ class SupportBearing(ByValue):
             "bearing", self, "bore", "outside_diameter", "rows", "ball_diameter", "balls"
         )
         if not faults:
-            faults += sizes_fault("bearing", self.bore, self.outside_diameter)
-            if self.rows > 1 and self.rows % 2:
-                faults.append(Fault("bearing.rows", "must be one or even", f"{self.rows:g}", "give 1, 2 or 4"))
+            faults += faults_of_sizes("bearing", self)
             if self.rows == 1 and np.any(self.preload > 0):
                 remedy = "give rows = 2, or the spring's force as a load"
                 faults.append(Fault("bearing.preload", "one row braces nothing", shown(self.preload, "N"), remedy))
@@ -298,8 +301,8 @@ PLACES: Mapping[str, str] = {
 class MountedBearing(ByValue):
     """The bearing, or the set of bearings, at one end of the shaft, with its share of the axial load of the screw.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement`, called with the load of the whole screw. What a
-    shaft is stretched with loads both ends and is no part of that: it belongs into the preload.
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement`, called with the load of the whole screw.
+    What a shaft is stretched with loads both ends and is no part of that: it belongs into the preload.
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, and for an unknown place.
     """
 

@@ -175,18 +175,6 @@ def guide_friction(load: Force, friction_coefficient: Ratio, seal_force: Force) 
     return mu * P + f
 
 
-def guide_life(dynamic_load_rating: Force, equivalent_load: Force, service_factor: Ratio) -> Length:
-    r"""Basic rating life of carriages with balls, as a distance.
-
-    .. math:: L = 50000 \left(\frac{C}{f_w P}\right)^3
-
-    For a rating C at 50 km, as most catalogues of Asia print it; one at 100 km is 1.26 times smaller for the same
-    carriage. The factor is 1 without shocks.
-    """
-    C, P, f_w = dynamic_load_rating, equivalent_load, service_factor
-    return 50000 * (C / (f_w * P)) ** 3
-
-
 def shaft_torsional_rigidity(
     shear_modulus: Pressure, shaft_force_diameter: Length, distance_to_bearing: Length
 ) -> RotationalStiffness:

@@ -10,7 +10,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from ballscrew.axis.supports import formulas
-from ballscrew.axis.supports.bearing import CONFORMITY, bearing_model, rows_of_balls
+from ballscrew.axis.supports.bearing import CONFORMITY, BallRoughness, bearing_model, rows_of_balls
 from ballscrew.axis.supports.makers_bearing import MakersFriction
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, accepts_units, faults_of, raise_if_any
@@ -46,15 +46,15 @@ GUIDES, SEALS = "guides", "guide seals"
 class LinearGuide(ByValue):
     r"""The carriages of a table on their rails: :math:`F = \sum \mu \left|P_i\right| + f`.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement` whose effort is a force along the rail, N. Called
-    with a state, its load is that of all carriages, which share it evenly, and its ``screw_speed`` stands for the
-    speed along the rail, m/s; :meth:`under` takes the load of each carriage, as
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement` whose effort is a force along the rail, N.
+    Called with a state, its load is that of all carriages, which share it evenly, and its ``screw_speed`` stands for
+    the speed along the rail, m/s; :meth:`under` takes the load of each carriage, as
     :class:`~ballscrew.axis.supports.guide.GuidedTable` has them.
 
     The coefficient of catalogues is 0.002 to 0.003 with balls (Thomson2024, Rollon2020) and 0.001 to 0.002 with rollers
     (Thomson2024), at a load of a fifth of the dynamic rating and without preload (NB2024). Seals have 2 N to 5 N a
     carriage (NB2024), light ones 0.15 N to 1 N by size (Rollon2020;
-    :func:`~ballscrew.axis.supports.catalogue_rows.guide_rows`).
+    :func:`~ballscrew.axis.supports.element_laws.guide_rows`).
     Preload, oil, fresh grease and temperature are in neither number and add to both.
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
@@ -200,11 +200,11 @@ STRAIGHT = 1e4
 class ContactGuide(ByValue):
     r"""The carriages of a table by their balls, which roll between rail and carriage at half its speed.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement` whose effort is a force along the rail, N, called as
-    :class:`~ballscrew.LinearGuide`. The contacts are those of the screw on a path without curvature: two for each ball,
-    in rows braced against each other (:math:`z Q \sin\alpha = P`, half of the rows against each direction of the load),
-    or four, of balls too big for a pointed arch. With two contacts a ball rolls about an axis along its contacts'
-    tangent and does not spin; with four it must slide. Under load the contacts climb the grooves.
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement` whose effort is a force along the rail, N,
+    called as :class:`~ballscrew.LinearGuide`. The contacts are those of the screw on a path without curvature: two for
+    each ball, in rows braced against each other (:math:`z Q \sin\alpha = P`, half of the rows against each direction of
+    the load), or four, of balls too big for a pointed arch. With two contacts a ball rolls about an axis along its
+    contacts' tangent and does not spin; with four it must slide. Under load the contacts climb the grooves.
 
     What catalogues leave out is assumed: a conformity of 0.52, the roughness of the paper, and no rows that carry less
     than others. A load across the rail counts as one that presses. Left out: what the return path and fresh grease
@@ -257,9 +257,7 @@ class ContactGuide(ByValue):
     groove_roughness: Annotated[
         Length, Info(r"\sigma_r", "RMS roughness of the grooves", "um", above=0, hint="0.1 um to 0.3 um")
     ] = 0.3e-6
-    ball_roughness: Annotated[
-        Length, Info(r"\sigma_b", "RMS roughness of the balls", "um", above=0, hint="0.02 um to 0.1 um")
-    ] = 0.08e-6
+    ball_roughness: BallRoughness = 0.08e-6
     seal_force: Annotated[
         Force,
         Info("f_s", "force of the seals of one carriage", "N", at_least=0, hint="2 N to 5 N", usual=(0.0, 200.0)),

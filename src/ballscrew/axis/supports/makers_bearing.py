@@ -9,24 +9,23 @@ from typing import Annotated, Any
 import numpy as np
 
 from ballscrew.axis.supports import formulas
-from ballscrew.axis.supports.bearing import Bore, OutsideDiameter, SealTorque, faults_of_arrays, sizes_fault
+from ballscrew.axis.supports.bearing import (
+    Bore,
+    OutsideDiameter,
+    PairPreload,
+    Rows,
+    SealTorque,
+    faults_of_arrays,
+    faults_of_sizes,
+)
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
-from ballscrew.basis.quantities import Array, Count, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
+from ballscrew.basis.quantities import Array, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
 from ballscrew.basis.records import Record
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.sizing.checks import loads_of_halves
-
-Rows = Annotated[
-    Count,
-    Info("i", "rows of balls, half of them against each direction", at_least=1, whole=True, hint="1, 2 or 4"),
-]
-PairPreload = Annotated[
-    Force,
-    Info("F_v", "axial preload of the pair without load", "N", at_least=0, hint="0 N: none", usual=(0.0, 1e5)),
-]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -88,11 +87,11 @@ class MakersFriction(ByValue):
 class SKFBearing(ByValue):
     """An angular-contact ball bearing by the maker's model of 2018: rolling and sliding moments, and the seals.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement`. The two sides of a preloaded pair carry the loads
-    of two springs braced against each other (:func:`~ballscrew.physics.sizing.checks.loads_of_halves`), and the rows
-    of one side share its load. Purely axial loads, without the drag of an oil bath. The constants are of the series 72
-    B(E) by default; those of bearings made for screws are not printed. In motion the boundary friction is 0.12; at
-    rest the torque is that of sliding alone.
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement`. The two sides of a preloaded pair carry
+    the loads of two springs braced against each other (:func:`~ballscrew.physics.sizing.checks.loads_of_halves`), and
+    the rows of one side share its load. Purely axial loads, without the drag of an oil bath. The constants are of the
+    series 72 B(E) by default; those of bearings made for screws are not printed. In motion the boundary friction is
+    0.12; at rest the torque is that of sliding alone.
 
     The centrifugal load of the balls needs the constant R_3, which is not known for the default series: it is left out
     there. With that of another series it adds 4 % to a 7205 and 29 % to a 7212 at 3000 rpm and 2 % of their ratings,
@@ -149,9 +148,9 @@ class SKFBearing(ByValue):
 class PalmgrenBearing(ByValue):
     """A bearing by Palmgren's two moments, :math:`M_0 + M_1`, and its seals. Recalled: nothing takes it by default.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement`. The form is Harris2001's as recalled, and neither
-    factor has a default: both are read in a maker's table for the type of bearing and the way it is lubricated. The
-    load here is the axial one; what a table makes of it (1.4 times, for some bearings) belongs into
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement`. The form is Harris2001's as recalled, and
+    neither factor has a default: both are read in a maker's table for the type of bearing and the way it is lubricated.
+    The load here is the axial one; what a table makes of it (1.4 times, for some bearings) belongs into
     ``load_factor``.
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
@@ -181,8 +180,8 @@ class PalmgrenBearing(ByValue):
 class KnownBearing(ByValue):
     """A bearing of one friction torque at all loads and speeds, as it was measured or as a catalogue prints it.
 
-    A :class:`~ballscrew.physics.friction.element.FrictionElement`. Torques of catalogues are those of the preloaded
-    bearing, often at the start and without a load; speed, load and temperature change them.
+    A :class:`~ballscrew.physics.components.operating_state.FrictionElement`. Torques of catalogues are those of the
+    preloaded bearing, often at the start and without a load; speed, load and temperature change them.
     Raises :class:`~ballscrew.basis.errors.InputError` for a negative torque.
     """
 
@@ -204,9 +203,7 @@ def _faults(section: str, bearing: SKFBearing | PalmgrenBearing) -> list[Fault]:
     faults = faults or faults_of_arrays(section, bearing, "bore", "outside_diameter", "rows", "preload")
     if faults:
         return faults
-    faults = sizes_fault(section, bearing.bore, bearing.outside_diameter)
-    if bearing.rows > 1 and bearing.rows % 2:
-        faults.append(Fault(f"{section}.rows", "must be one or even", f"{bearing.rows:g}", "give 1, 2 or 4"))
+    faults = faults_of_sizes(section, bearing)
     if bearing.rows == 1 and bearing.preload > 0:
         given = shown(bearing.preload, "N")
         faults.append(Fault(f"{section}.preload", "one row braces nothing", given, "give rows = 2"))

@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
+from ballscrew.axis.duty_cycle.duty import to_and_fro
 from ballscrew.axis.motion.states import Numbers
-from ballscrew.axis.thermal.equilibrium import equilibrium
 from ballscrew.axis.thermal.friction_map import FrictionMap, grid_of, torque_at
 from ballscrew.axis.thermal.network import (
     Network,
@@ -22,13 +21,14 @@ from ballscrew.axis.thermal.network import (
     power_of_supports,
 )
 from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.warm_up import equilibrium
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Length
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.components.nut import SingleNut
-from ballscrew.physics.friction.element import FrictionElement
+from ballscrew.physics.components.operating_state import FrictionElement
 from ballscrew.physics.solvers.load_distribution import preload_of
 
 #: Inputs that follow from the heat, and cannot be given to each point.

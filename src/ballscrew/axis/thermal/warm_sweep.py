@@ -16,8 +16,8 @@ from ballscrew.engine.evaluation.outputs import attributes_of
 from ballscrew.engine.evaluation.plan import STARVED, Configuration, Plan
 from ballscrew.engine.sweeps.sweep import sweep
 from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import FrictionElement
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction.element import FrictionElement
 from ballscrew.physics.friction.model import FrictionModel
 
 #: What the heat does at each point, besides the outputs.
@@ -50,7 +50,7 @@ def warm_sweep(
     """:func:`~ballscrew.engine.sweeps.sweep.sweep` with each point in its own steady state.
 
     ``model``, ``screw``, ``lubricant``, ``outputs`` and ``varied`` are those of a sweep. Each point goes to and fro
-    over the ``stroke`` (m) under its load until it is warm (:func:`~ballscrew.axis.thermal.equilibrium.steady_heat`) in
+    over the ``stroke`` (m) under its load until it is warm (:func:`~ballscrew.axis.thermal.warm_up.steady_heat`) in
     its ``surroundings``, with what rubs on the shaft besides (``also``). ``shaft_length`` (m) is taken where the
     surroundings have none. Its results are those of the oil and the preload then; one without a steady state has none,
     and is not valid. ``done(finished, total)`` is told the points. The dataset that is returned has :data:`HEAT` beside

@@ -12,11 +12,10 @@ import numpy as np
 from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.duty_cycle.screw_friction import WORTH_RECORDING
 from ballscrew.axis.motion.states import Numbers
-from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium
 from ballscrew.axis.thermal.moving_source import Itinerary, Piece, Slot, marched
 from ballscrew.axis.thermal.network import FrictionFactor, Network
 from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
-from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
+from ballscrew.axis.thermal.warm_up import Equilibrium, WarmUp, equilibrium, warm_up
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import Duration, Length, Ratio, fields_of
@@ -24,9 +23,9 @@ from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
 from ballscrew.engine.uncertainty.bands import Interval
-from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
 from ballscrew.engine.uncertainty.distributions import Distribution, allowed
 from ballscrew.engine.uncertainty.monte_carlo import JointNormal, Sampler, sobol_sequence
+from ballscrew.engine.uncertainty.uncertain_value import default_uncertainties
 
 #: Samples where none are asked for, and of heat that goes along with the nut, which takes longer.
 SAMPLES, SAMPLES_ALONG = 512, 64

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Literal, TypeAlias
 
 from ballscrew.basis import units
-from ballscrew.basis.output.plain_numbers import plain
+from ballscrew.basis.output.text import plain
 from ballscrew.basis.quantities import Array, Quantity
 from ballscrew.basis.records import Record
 

@@ -7,8 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
 from ballscrew.axis.motion.profiles import Motion, Segments
 from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.thermal.surroundings import Surroundings
@@ -103,7 +102,7 @@ class Origins:
     #: Places of values that were estimated when the case was made: ``installation.unsupported_length``.
     estimated: frozenset[str] = frozenset()
     #: Warnings of numbers that the file writes so that they could be others
-    #: (:mod:`ballscrew.cases.case_files.spelling`).
+    #: (:mod:`ballscrew.cases.case_files.case_text`).
     doubtful_numbers: Sequence[Record] = ()
     #: Whether the operating point is that of steady travel in the motion, as the file gives none.
     travels: bool = False

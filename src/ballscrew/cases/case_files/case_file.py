@@ -13,28 +13,26 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ballscrew.axis.supports.bearing import MountedBearing
-from ballscrew.axis.thermal.written_bands import written_bands
 from ballscrew.basis import units
 from ballscrew.basis.errors import UNKNOWN, Fault, InputError, closest, nearest
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.units import in_display_units
 from ballscrew.cases.case_files import case_text, duty_tables, nut_tables, project, support_tables, uncertain_inputs
 from ballscrew.cases.case_files.case import USUAL_LIMITS, Case, Origins
+from ballscrew.cases.case_files.case_text import doubtful
 from ballscrew.cases.case_files.lubricants import lubricant_of
 from ballscrew.cases.case_files.named_calibration import calibrated_by_table, of_make, with_calibration
-from ballscrew.cases.case_files.spelling import doubtful
+from ballscrew.cases.case_files.uncertain_inputs import written_bands
 from ballscrew.cases.schema.case_schema import DEFAULT_MODEL, MODELS, NUT_TABLES, law_of, name_of_law, places_of
 from ballscrew.cases.schema.duty_schema import DUTY_TABLES, SUPPORT_TABLES
 from ballscrew.cases.schema.fields import NutSpeed, is_nut_speed
-from ballscrew.cases.schema.option_faults import in_options
-from ballscrew.cases.schema.reader import Reader
+from ballscrew.cases.schema.reader import Reader, in_options
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES
 from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, BallScrew, rating_of
 from ballscrew.physics.friction import calibrations
-from ballscrew.physics.friction.law_names import LAWS, coefficients
-from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.model import LAWS, FrictionModel, coefficients
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Installation

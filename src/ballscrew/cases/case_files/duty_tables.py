@@ -11,14 +11,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
 from ballscrew.axis.motion.profiles import Motion, Segment
 from ballscrew.axis.motion.trajectory import Trajectory
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
-from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest, overflow_as_input_error
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.schema.case_schema import MODELS, read_table
 from ballscrew.cases.schema.duty_schema import (

@@ -16,7 +16,7 @@ from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.inputs import of_case, references
+from ballscrew.cases.case_files.descriptions import of_case, references
 from ballscrew.cases.case_files.lubricants import OF_NAMED_OIL
 from ballscrew.cases.case_files.named_calibration import written_out
 from ballscrew.cases.case_files.opened_file import moved

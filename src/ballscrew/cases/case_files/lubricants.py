@@ -21,8 +21,8 @@ from ballscrew.basis.units import in_display_units
 from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
 from ballscrew.cases.schema.reader import Reader
-from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.oil_grades import SHEET_TEMPERATURE, DataSheet
 
 #: Bytes of a file of oils at most.
 LARGEST_FILE = 4_000_000

@@ -19,12 +19,11 @@ from ballscrew.files.tables.cells import Share
 from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.physics.laws.nut_losses import ParasiticLaw
-from ballscrew.physics.sizing import listed_nut
+from ballscrew.physics.sizing import ratings
 from ballscrew.physics.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
 from ballscrew.physics.sizing.checks import groove_bottom
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.listed_nut import NUTS, lists_preload
-from ballscrew.physics.sizing.ratings import Ratings, load_ratings, ratings_of
+from ballscrew.physics.sizing.ratings import NUTS, Ratings, lists_preload, load_ratings, ratings_of
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)
@@ -51,7 +50,7 @@ def row_of(reader: Reader, table: Mapping[str, Any]) -> CatalogueRow | None:
         return None
 
 
-def ratings(screw: BallScrew, row: CatalogueRow | None) -> Ratings:
+def screw_ratings(screw: BallScrew, row: CatalogueRow | None) -> Ratings:
     """The ratings of a screw by its geometry. Raises ``InputError`` for one that no catalogue could have."""
     made = None if row is None else row.screw()
     same = made is not None and all(getattr(made, name) == getattr(screw, name) for name in _RATED)
@@ -98,7 +97,7 @@ def dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[s
     """The dynamic load rating of one nut body and where it is from. Raises ``InputError`` where there is none."""
     if "dynamic_load_rating" in listed:
         return listed["dynamic_load_rating"], RATING_SOURCES[0]
-    return ratings(screw, row).dynamic, RATING_SOURCES[1]
+    return screw_ratings(screw, row).dynamic, RATING_SOURCES[1]
 
 
 def seal_torque_source(row: CatalogueRow | None, nut: Nut) -> str:
@@ -120,7 +119,7 @@ def nut_of(
     None without such a section, where the row, too, lists neither preload nor seals. What a section says counts, what
     it leaves out is that of the row. The contact angle of a single nut that a case names follows the load.
     """
-    of_row = None if row is None else listed_nut.nut_of(row)
+    of_row = None if row is None else ratings.nut_of(row)
     if of_row is None and not any(name in reader for name in _OF_NUT):
         return None, ()
     part = reader.part()

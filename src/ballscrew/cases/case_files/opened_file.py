@@ -18,7 +18,7 @@ from ballscrew.cases.case_files import case_file, case_text, project
 from ballscrew.cases.case_files.project import Design
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.files.tables.sheets import is_spreadsheet
-from ballscrew.files.torque_logs.preview import preview
+from ballscrew.files.torque_logs.reading import preview
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 
 #: Fields, in any table of a case, that name a file beside it.

@@ -8,7 +8,6 @@ from typing import Any
 
 from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.supports.bearing import MountedBearing
-from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
 from ballscrew.axis.supports.element_laws import (
     BEARING_LAWS,
     GUIDE_LAWS,
@@ -16,9 +15,11 @@ from ballscrew.axis.supports.element_laws import (
     STATICS,
     UNCERTAIN,
     fields_of_laws,
+    guide_rows,
     misplaced,
     missing,
     numbers_of,
+    support_units,
 )
 from ballscrew.axis.supports.guide import CarriedMass, GuidedTable
 from ballscrew.basis.errors import MISSING, Fault, nearest, shown

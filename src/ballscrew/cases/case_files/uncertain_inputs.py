@@ -1,4 +1,7 @@
-"""Uncertain inputs of a case: those that its file gives, and defaults for those rarely known."""
+"""Uncertain inputs of a case: those that its file gives, and defaults for those rarely known.
+
+Distributions that a table of surroundings gives its numbers: ``ball_conductance = "4 ± 1 W/K"``.
+"""
 
 from __future__ import annotations
 
@@ -9,15 +12,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
 from ballscrew.basis.errors import Fault, raise_if_any
-from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.fields import NUT_SPEED, is_nut_speed, is_share, without_percent
 from ballscrew.cases.screw_tables.nut_kinds import PERCENT
 from ballscrew.engine.evaluation.outputs import inputs_of
-from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
 from ballscrew.engine.uncertainty.distributions import Distribution, Normal, scaled
-from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
+from ballscrew.engine.uncertainty.uncertain_value import (
+    UncertainValue,
+    default_distributions,
+    describe_distribution,
+    parse_uncertain,
+)
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import BallScrew
@@ -215,3 +223,20 @@ def _at(tables: Mapping[str, Any], path: str) -> Any:
     for key in path.split("."):
         place = place.get(key) if isinstance(place, Mapping) else None
     return place
+
+
+def written_bands(table: Mapping[str, Any]) -> tuple[dict[str, Distribution], frozenset[str]]:
+    """The distributions by name (``surroundings.ball_conductance``), and what is exact; of a table without faults."""
+    distributions: dict[str, Distribution] = {}
+    exact: set[str] = set()
+    quantities = fields_of(Surroundings)
+    for name in VARIED:
+        written = parse_uncertain(table.get(name), quantities[name])
+        assert not isinstance(written, Fault), written
+        if written is None:
+            continue
+        if written.distribution is None:
+            exact.add(PREFIX + name)
+        else:
+            distributions[PREFIX + name] = written.distribution
+    return distributions, frozenset(exact)

@@ -8,8 +8,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, Field, WithJsonSchema
 
-from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
 from ballscrew.axis.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
 from ballscrew.axis.supports.bearing import PLACES, MountedBearing, SupportBearing
 from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, MOUNTING, STATICS, UNCERTAIN, fields_of_laws

@@ -1,13 +1,16 @@
-"""The reader of a case: its tables in SI, validated once, and the faults that are found in them."""
+"""The reader of a case: its tables in SI, validated once, and the faults that are found in them.
+
+Options of the command line that set fields of a case; faults of such fields name the option.
+"""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import MISSING, Fault, InputError, to_set
 from ballscrew.cases.schema.case_schema import NUT_TABLES, validated
 from ballscrew.cases.schema.duty_schema import DUTY_TABLES, SUPPORT_TABLES
 from ballscrew.physics.sizing.catalogue import CatalogueRow
@@ -77,3 +80,24 @@ class Reader:
         except InputError as error:
             self.faults += [dataclasses.replace(fault, where=place_of(fault.where)) for fault in error.faults]
             return None
+
+
+#: The options that each command with a case has, by the field that they set.
+OPTIONS: Mapping[str, str] = {"model.calibration": "--calibration", "model.name": "--model"}
+
+
+def in_options(faults: Iterable[Fault], given: Collection[str], options: Mapping[str, str] = OPTIONS) -> list[Fault]:
+    """Faults of fields that options gave, or that are missing beside such, with options in place of fields."""
+    sections = {place.partition(".")[0] for place in given}
+    return [_in_options(fault, given, sections, options) for fault in faults]
+
+
+def _in_options(fault: Fault, given: Collection[str], sections: Collection[str], options: Mapping[str, str]) -> Fault:
+    option, section = options.get(fault.where), fault.where.partition(".")[0]
+    if option is None or not (fault.where in given or (fault.problem == MISSING and section in sections)):
+        return fault
+    remedy = fault.remedy
+    for field, name in options.items():
+        if field.partition(".")[0] == section:
+            remedy = remedy.replace(to_set(field), f"{name} ")
+    return dataclasses.replace(fault, where=option, remedy=remedy)

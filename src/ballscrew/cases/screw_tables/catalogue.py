@@ -14,7 +14,7 @@ from ballscrew.basis.errors import Fault, InputError, closest, nearest, raise_if
 from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
 from ballscrew.basis.version import __version__
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_in
-from ballscrew.files.tables import column_names
+from ballscrew.files.tables import headings
 from ballscrew.files.tables.cells import Share
 from ballscrew.files.tables.headings import Column
 from ballscrew.files.tables.rows import Row, made, read
@@ -28,10 +28,8 @@ from ballscrew.physics.sizing.catalogue import (
     catalogue,
     is_shipped,
 )
-from ballscrew.physics.sizing.listed_nut import NUTS, lists_preload
-from ballscrew.physics.sizing.own_nut import RATED, Estimate, completed
-from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.physics.sizing.table_balls import with_table_balls
+from ballscrew.physics.sizing.own_nut import RATED, Estimate, completed, with_table_balls
+from ballscrew.physics.sizing.ratings import NUTS, lists_preload, ratings_of
 
 #: Quantities of a row that are listed, and that follow from it.
 FIELDS = fields_of(CatalogueRow)
@@ -41,17 +39,17 @@ _REQUIRED = ("nominal_diameter", "lead", "ball_diameter", "turns")
 
 
 def _column(name: str, quantity: Quantity | None = None) -> Column:
-    names, hints = column_names.NAMES.get(name, ()), column_names.HINTS.get(name, ())
+    names, hints = headings.NAMES.get(name, ()), headings.HINTS.get(name, ())
     return Column(
         name,
         quantity,
         names,
         name in _REQUIRED,
         hints,
-        product=name in column_names.PRODUCTS,
-        capitals=column_names.CAPITALS.get(name, ()),
-        share=FIELDS.get(column_names.SHARES.get(name, "")),
-        words=column_names.WORDS.get(name, {}),
+        product=name in headings.PRODUCTS,
+        capitals=headings.CAPITALS.get(name, ()),
+        share=FIELDS.get(headings.SHARES.get(name, "")),
+        words=headings.WORDS.get(name, {}),
     )
 
 
@@ -126,7 +124,7 @@ def load(path: Path | None, keep_going: bool = False) -> tuple[Mapping[str, Cata
 def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], odd: list[str]) -> CatalogueRow:
     """The catalogue row of a row of a table; without a name it is called by its sizes."""
     values = dict(row.values)
-    is_estimated = values.get("ball_diameter") == column_names.ESTIMATED
+    is_estimated = values.get("ball_diameter") == headings.ESTIMATED
     if is_estimated:
         del values["ball_diameter"]
     file, log = path.name, values.pop("log", None)
@@ -139,10 +137,10 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], od
         faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
     if isinstance(seals := values.get("seal_torque"), str):
         values["seal_torque"] = _seal_torque(seals, values, faults)
-        if seals == column_names.STANDARD:
+        if seals == headings.STANDARD:
             values["seal_torque_source"] = seal_source(str(values.get("make", "")))
     if "spacer_balls" in values:
-        values["spacer_balls"] = values["spacer_balls"] == column_names.YES
+        values["spacer_balls"] = values["spacer_balls"] == headings.YES
     try:
         fields: dict[str, Any] = {**values, "nut": kind_in(values.get("nut", ""))}
         if is_estimated:
@@ -165,7 +163,7 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], od
 
 def _seal_torque(word: str, values: Mapping[str, Any], faults: list[Fault]) -> float | None:
     """The torque of seals that a word stands for."""
-    if word == column_names.NONE:
+    if word == headings.NONE:
         return 0.0
     try:
         return float(Seals.of_table(values["nominal_diameter"], values["lead"]).seal_torque)
@@ -187,7 +185,7 @@ def seal_source(make: str) -> str:
 def _in_column(fault: Fault, row: Row) -> Fault:
     """The fault of a share, in the column of the preload where it stands there."""
     parent, _, name = fault.where.rpartition(".")
-    column = next((column for column, share in column_names.SHARES.items() if share == name), name)
+    column = next((column for column, share in headings.SHARES.items() if share == name), name)
     return dataclasses.replace(fault, where=f"{parent}.{column}") if column in row.written else fault
 
 
@@ -301,7 +299,7 @@ def assumed(row: CatalogueRow) -> dict[str, str]:
         values["pitch_circle_diameter"] = (
             "pitch circle as large as the nominal diameter; those that catalogues list are mostly 1.5 to 5 % larger"
         )
-    if row.ball_diameter_source == column_names.ESTIMATED:
+    if row.ball_diameter_source == headings.ESTIMATED:
         values["ball_diameter"] = "ball diameter: an estimate, by the depth of the groove and the load ratings"
     elif row.ball_diameter_source:
         values["ball_diameter"] = f"ball diameter: {row.ball_diameter_source}"

@@ -11,7 +11,7 @@ from ballscrew.physics.laws import nut_losses
 from ballscrew.physics.laws.nut_losses import ParasiticLaw
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Ends
-from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.physics.sizing.ratings import NUTS
 
 #: What catalogues call them in words, besides "nut" and "flange". A single nut that is preloaded may be two of the
 #: kinds: nothing is guessed.

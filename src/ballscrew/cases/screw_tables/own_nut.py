@@ -10,7 +10,7 @@ from typing import Any
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.cases.screw_tables.nut_kinds import kind_in
-from ballscrew.files.tables import column_names, decimals
+from ballscrew.files.tables import cells, headings
 from ballscrew.files.tables.cells import Share, shown, text_of, value_of
 from ballscrew.files.tables.headings import NOTHING, Column, Heading
 from ballscrew.physics.sizing.own_nut import OwnNut, completed
@@ -22,7 +22,7 @@ SOURCE = "numbers of one's own"
 #: Columns of a table that one nut has: it has no log, and no maker whose standard seals are known.
 _COLUMNS = {
     column.name: dataclasses.replace(
-        column, words={word: meant for word, meant in column.words.items() if meant != column_names.STANDARD}
+        column, words={word: meant for word, meant in column.words.items() if meant != headings.STANDARD}
     )
     for column in COLUMNS
     if column.name != "log"
@@ -39,7 +39,7 @@ def own_nut_of(numbers: Mapping[str, Any]) -> OwnNut:
     """
     values: dict[str, Any] = {}
     faults: list[Fault] = []
-    decimal = decimals.evidence(text for text in numbers.values() if isinstance(text, str))
+    decimal = cells.evidence(text for text in numbers.values() if isinstance(text, str))
     for name, given in numbers.items():
         column = _column(name)
         if column is None:
@@ -95,7 +95,7 @@ def _column(name: str) -> Column | None:
 def _value(where: str, given: Any, text: str, column: Column, decimal: frozenset[str]) -> Any:
     """A number in SI, a text, or the fault in it."""
     if isinstance(given, bool):
-        given = text = column_names.YES if given else column_names.NO
+        given = text = headings.YES if given else headings.NO
     heading = Heading(column.name, column, 0, in_table=False)
     if column.quantity is None:
         return text_of(where, text, heading)
@@ -105,14 +105,14 @@ def _value(where: str, given: Any, text: str, column: Column, decimal: frozenset
 def _fields(values: Mapping[str, Any]) -> dict[str, Any]:
     """The fields of a row of these values."""
     fields: dict[str, Any] = {"name": "own nut", "source": SOURCE, **values}
-    if fields.get("ball_diameter") == column_names.ESTIMATED:
+    if fields.get("ball_diameter") == headings.ESTIMATED:
         del fields["ball_diameter"]
     if isinstance(fields.get("preload"), Share):
         fields["preload_share"] = float(fields.pop("preload"))
-    if fields.get("seal_torque") == column_names.NONE:
+    if fields.get("seal_torque") == headings.NONE:
         fields["seal_torque"] = 0.0
     if "spacer_balls" in fields:
-        fields["spacer_balls"] = fields["spacer_balls"] == column_names.YES
+        fields["spacer_balls"] = fields["spacer_balls"] == headings.YES
     if "nut" in fields:
         fields["nut"] = kind_in(fields["nut"])
     return fields

@@ -17,10 +17,10 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.compiler.kernels import elementary
+from ballscrew.compiler.kernels import ir
 from ballscrew.compiler.kernels.ir import Value, Writer, constant
 from ballscrew.compiler.tracing.program import Program, Source
-from ballscrew.compiler.tracing.steps import Operand, Step, choose
+from ballscrew.compiler.tracing.tape import Operand, Step, choose
 
 #: Steps of a piece: of four thousand, a compiler needs a tenth of the time for each that it needs of forty thousand.
 STEPS = 3000
@@ -181,7 +181,7 @@ def kernel_text(
     lines = [*w.lines, *_emit_ends(w, seen, len(program.outputs)), "  ret void"]
     return "\n".join(
         [
-            elementary.definitions(w.lanes),
+            ir.definitions(w.lanes),
             *([] if parts is None else [parts.functions]),
             f"define void @kernel({SIGNATURE}) {{",
             "entry:",
@@ -419,7 +419,7 @@ class StepEmitter:
             return self._power(self._number(operands[0]), float(operands[1][1]))
         numbers = [self._number(operand) for operand in operands]
         if function is np.log and operands[0][1] in self.nonnegative:
-            return self.w.call(elementary.LOG_OF_NONNEGATIVE, *numbers)
+            return self.w.call(ir.LOG_OF_NONNEGATIVE, *numbers)
         if function is np.divide and operands[1] in self.shared and operands[0] != operands[1]:
             return self._product_with_inverse(operands[0], operands[1], numbers)
         if function in _ARITHMETIC:
@@ -453,8 +453,8 @@ class StepEmitter:
             return w.exact("fsub", numbers[0], w.exact("fmul", turns, numbers[1]))
         if function in _TO_INFINITY:
             size = w.intrinsic("fabs", numbers[0])
-            return w.compare(_TO_INFINITY[function], size, size if function is np.isnan else elementary.INFINITY)
-        if function.__name__ in elementary.NAMES:
+            return w.compare(_TO_INFINITY[function], size, size if function is np.isnan else ir.INFINITY)
+        if function.__name__ in ir.NAMES:
             return w.call(function.__name__, *numbers)
         raise UnknownOperationError(function.__name__)
 

@@ -3,6 +3,16 @@
 The key of the cache is a digest of the assembly, the processor and the version of the compiler, so that
 the next process finds the code and never a wrong one. The cache is in ``BALLSCREW_CACHE``, or in the user's
 cache folder. It is an optimisation only: where it cannot be read or written, each process compiles its own kernels.
+
+Large arrays for results, in memory that has been used before where there is some.
+
+Of memory that is new to the process the system first clears each page, which takes as long as a kernel needs to fill
+it. So the memory of large arrays is kept when the last array in it is gone, for the next ones. The system is told
+that it may take it back whenever it needs it (``MADV_FREE``); where it cannot be told so, nothing is kept.
+
+Kernels that find the least and the greatest value of each input while they read it.
+
+What a large array is checked for are its ends. To read it once more for them takes half as long as the kernel itself.
 """
 
 from __future__ import annotations
@@ -14,10 +24,12 @@ import hashlib
 import importlib
 import importlib.util
 import logging
+import mmap
 import os
 import sys
 import tempfile
 import threading
+from collections import deque
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -25,8 +37,82 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.compiler.kernels.buffers import ALIGNMENT
+from ballscrew.compiler.kernels.emission import ENDS_OF_EACH
 from ballscrew.compiler.tracing.program import Source
+
+#: Alignment in bytes that non-temporal stores need.
+ALIGNMENT = 64
+#: Size of a huge page, and the least size of what is kept.
+HUGE_PAGE, LEAST_KEPT = 2 * 2**20, 2**20
+#: Most memory that is kept in bytes, and the most pieces of it.
+MOST_KEPT, MOST_PIECES = 2**30, 64
+#: A piece is taken for an array of at least this share of its size.
+LEAST_SHARE = 0.5
+
+_MAY_BE_KEPT = hasattr(mmap, "MADV_FREE") and hasattr(mmap, "MAP_ANONYMOUS")
+#: Memory that no array is in; a deque, as its methods need no lock, which a finaliser could not wait for.
+_kept: deque[mmap.mmap] = deque()
+
+
+def aligned_array(count: int, dtype: type) -> NDArray[Any]:
+    """An uninitialised array aligned for non-temporal stores."""
+    size = count * np.dtype(dtype).itemsize
+    if size >= LEAST_KEPT and _MAY_BE_KEPT:
+        return np.asarray(_Piece(_taken(size) or _mapped(size), size)).view(dtype)
+    raw = np.empty(size + ALIGNMENT, dtype=np.uint8)
+    start = -raw.ctypes.data % ALIGNMENT
+    return raw[start : start + size].view(dtype)
+
+
+def forget() -> None:
+    """Give what is kept back to the system."""
+    _kept.clear()
+
+
+class _Piece:
+    """Memory with arrays in it, which hold it; it is kept when the last of them is gone."""
+
+    def __init__(self, memory: mmap.mmap, size: int) -> None:
+        self._memory = memory
+        address = np.frombuffer(memory, np.uint8, 1).__array_interface__["data"][0]
+        address += -address % HUGE_PAGE
+        self.__array_interface__ = {"version": 3, "shape": (size,), "typestr": "|u1", "data": (address, False)}
+
+    def __del__(self) -> None:
+        """Keep the memory, as long as there is not too much."""
+        # not kept where the system refuses, another thread is quicker, or Python is being shut down
+        with contextlib.suppress(OSError, RuntimeError, IndexError, TypeError, AttributeError):
+            self._memory.madvise(mmap.MADV_FREE)
+            _kept.append(self._memory)
+            while len(_kept) > MOST_PIECES or sum(map(len, _kept.copy())) > MOST_KEPT:
+                _kept.popleft()
+
+
+def _mapped(size: int) -> mmap.mmap:
+    """New memory with room to begin at a huge page."""
+    whole = -(-size // HUGE_PAGE) * HUGE_PAGE + HUGE_PAGE
+    memory = mmap.mmap(-1, whole, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    if hasattr(mmap, "MADV_HUGEPAGE"):
+        with contextlib.suppress(OSError):  # a system without them
+            memory.madvise(mmap.MADV_HUGEPAGE)
+    return memory
+
+
+def _taken(size: int) -> mmap.mmap | None:
+    """The smallest piece that is kept and large enough, but not too large."""
+    for memory in sorted(_kept.copy(), key=len):
+        if size + HUGE_PAGE <= len(memory) and size >= LEAST_SHARE * (len(memory) - 2 * HUGE_PAGE):
+            try:
+                _kept.remove(memory)
+            except ValueError:  # another thread was quicker
+                continue
+            return memory
+    return None
+
+
+if hasattr(os, "register_at_fork"):  # what a child writes into it would be copied page by page
+    os.register_at_fork(after_in_child=forget)
+
 
 #: Columns that are worked on at a time, row after row: tables of a dozen inputs then stay in the first cache.
 COLUMN_TILE = 512
@@ -339,3 +425,44 @@ def _save(name: str, machine_code: bytes) -> None:
         by_age = sorted(place.iterdir(), key=lambda path: path.stat().st_mtime)
         for old in by_age[:-MOST_ON_DISK]:
             old.unlink(missing_ok=True)
+
+
+#: The bits of infinity: of a positive number they are less, of NaN more; those of negative numbers are negative.
+_INFINITY = 0x7FF0000000000000
+
+
+class WatchedKernel:
+    """A kernel of a ``watched`` assembly (:func:`~ballscrew.compiler.kernels.emission.kernel_text`)."""
+
+    def __init__(self, text: str, sources: Sequence[Source], lanes: int) -> None:
+        self._kernel = Kernel.of(text, sources)
+        self._watched = [source == "points" for source in sources]
+        self._lanes = lanes
+
+    def __call__(
+        self,
+        count: int,
+        inputs: Sequence[NDArray[np.float64]],
+        results: Sequence[NDArray[Any]],
+        *,
+        past_cache: bool | None = None,
+    ) -> list[NDArray[np.float64] | None]:
+        """Evaluate points; return the ends of each input over them, NaN as both where it has one."""
+        result = np.empty((sum(self._watched), ENDS_OF_EACH, self._lanes), dtype=np.int64)
+        self._kernel(slice(0, 1), slice(0, count), count, inputs, [*results, result], past_cache=past_cache)
+        bits = iter(result)
+        return [
+            self._ends(values, next(bits)) if watched else None
+            for values, watched in zip(inputs, self._watched, strict=True)
+        ]
+
+    def _ends(self, values: NDArray[np.float64], bits: NDArray[np.int64]) -> NDArray[np.float64]:
+        """The ends by the bits of whole vectors, and the last values; by all values where not all are positive."""
+        least, greatest = bits[0].min(), bits[1].max()
+        whole = values.size // self._lanes * self._lanes
+        if whole == 0 or least < 0 or greatest > _INFINITY:
+            return np.array([values.min(), values.max()])
+        ends = np.array([least, greatest]).view(np.float64)
+        rest = values[whole:]
+        # NaN among the last comes out as both
+        return np.array([np.min(rest, initial=ends[0]), np.max(rest, initial=ends[1])])

@@ -1,7 +1,7 @@
 """Kernels as WebAssembly modules: the same assembly, compiled for a browser instead of this processor.
 
 A module has its functions and the memory that it is given, and nothing else: constants are immediate, elementary
-functions are polynomials of :mod:`ballscrew.compiler.kernels.elementary`, so that no library of the browser takes part,
+functions are polynomials of :mod:`ballscrew.compiler.kernels.ir`, so that no library of the browser takes part,
 and neither fused products nor relaxed vectors are used. Results are therefore the same to the last bit on every machine
 (but the payload of NaN). Needs vectors of 128 bits and bulk memory: Chrome 91, Firefox 89, Safari 16.4 or later.
 

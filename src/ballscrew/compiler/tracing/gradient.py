@@ -17,8 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.compiler.tracing.program import required_steps
-from ballscrew.compiler.tracing.steps import Step, choose
-from ballscrew.compiler.tracing.tape import Tape, Traced
+from ballscrew.compiler.tracing.tape import Step, Tape, Traced, choose
 
 
 class UnknownDerivativeError(Exception):

@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.compiler.tracing.program import Program, Renumbering, Source, required_steps
-from ballscrew.compiler.tracing.steps import COLUMNS, ROWS, Step, choose
-from ballscrew.compiler.tracing.tape import MASKS, CannotRecordError, Tape
+from ballscrew.compiler.tracing.tape import COLUMNS, MASKS, ROWS, CannotRecordError, Step, Tape, choose
 
 
 class Split(NamedTuple):

@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.compiler.tracing.program import Program, Renumbering, required_steps
-from ballscrew.compiler.tracing.steps import REDUCTIONS, ROWS, Step
-from ballscrew.compiler.tracing.tape import CannotRecordError, Tape, Traced
+from ballscrew.compiler.tracing.tape import REDUCTIONS, ROWS, CannotRecordError, Step, Tape, Traced
 
 
 class Reduction(NamedTuple):

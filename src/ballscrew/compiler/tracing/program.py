@@ -3,6 +3,8 @@
 NumPy runs a program block by block into a few buffers that stay in the cache. Results agree with plain
 arrays to about 1e-14 relative, do not depend on the size of the blocks, and keep the limits at zero
 load and at rest (the logarithm of zero is minus infinity).
+
+Programs as documents of plain lists, which other processes read: steps by the names of their functions, no code.
 """
 
 from __future__ import annotations
@@ -18,8 +20,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.compiler.tracing.steps import Operand, Step
-from ballscrew.compiler.tracing.tape import Tape, Traced
+from ballscrew.compiler.tracing.tape import Operand, Step, Tape, Traced, choose
 
 #: The origin of the values of an input: one for each point, column or row of a grid; or as a call says by a stride, one
 #: for each point or one for all.
@@ -200,3 +201,48 @@ class Interpreter:
             for slot, is_mask in self.buffers.items():
                 slots[slot] = np.empty(size, dtype=bool if is_mask else float)
         return workspaces[size]
+
+
+def can_be_written(program: Program) -> bool:
+    """True where each step is an elementwise function of NumPy, or a choice."""
+    return all(_named(step.function.__name__) is step.function for _, step in program.steps)
+
+
+def as_document(program: Program) -> dict[str, Any]:
+    """A program as lists and tables of numbers and names."""
+    return {
+        "inputs": program.inputs,
+        "steps": [(i, *_written(step)) for i, step in program.steps],
+        "outputs": dict(program.outputs),
+        "constants": {name: _plain(value) for name, value in program.constants.items()},
+        "nonnegative": sorted(program.nonnegative),
+    }
+
+
+def from_document(held: Mapping[str, Any]) -> Program:
+    """The reverse of :func:`as_document`. Raises ``ValueError`` for a function that it does not write."""
+    steps: list[tuple[int, Step]] = []
+    for i, name, operands, is_mask in held["steps"]:
+        function = _named(name)
+        if function is None:
+            raise ValueError(name)
+        steps.append((i, Step(function, tuple((kind, operand) for kind, operand in operands), is_mask)))
+    return Program(held["inputs"], tuple(steps), held["outputs"], held["constants"], frozenset(held["nonnegative"]))
+
+
+def _written(step: Step) -> tuple[str, list[tuple[str, Any]], bool]:
+    operands = [(kind, _plain(operand)) for kind, operand in step.operands]
+    return step.function.__name__, operands, bool(step.is_mask)
+
+
+def _plain(value: Any) -> Any:
+    """A number or a truth value of Python's own."""
+    return value.item() if isinstance(value, np.generic | np.ndarray) else value
+
+
+def _named(name: str) -> Any:
+    """The function of a name; None where there is none."""
+    if name == choose.__name__:
+        return choose
+    result = getattr(np, name, None)
+    return result if isinstance(result, np.ufunc) else None

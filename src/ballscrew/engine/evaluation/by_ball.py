@@ -23,25 +23,39 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import as_array
 from ballscrew.compiler.kernels import kernel as kernels
-from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
-from ballscrew.compiler.kernels.kernel import Kernel, code_of
+from ballscrew.compiler.kernels.kernel import Kernel, aligned_array, code_of
 from ballscrew.compiler.tracing.grid import Split, split
 from ballscrew.compiler.tracing.merging import Reduction, Stages, cut_at_reductions, reduced, sums_of
-from ballscrew.compiler.tracing.program import Program, Source, required_steps
-from ballscrew.compiler.tracing.steps import REDUCTIONS
-from ballscrew.compiler.tracing.tape import CannotRecordError
-from ballscrew.compiler.tracing.written import as_document, can_be_written, from_document
-from ballscrew.engine.evaluation.axes import ends
-from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, PAYS, Engine, why_numpy, worth_compiling
-from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
+from ballscrew.compiler.tracing.program import (
+    Program,
+    Source,
+    as_document,
+    can_be_written,
+    from_document,
+    required_steps,
+)
+from ballscrew.compiler.tracing.tape import REDUCTIONS, CannotRecordError
+from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION, ends
 from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
-from ballscrew.engine.evaluation.recordings import Recording, Structures
-from ballscrew.engine.evaluation.structure_kernels import MOST_STEPS_OPTIMISED, keep, kept, name_of
+from ballscrew.engine.evaluation.recordings import (
+    ASKED_FOR,
+    KNOWN,
+    PAYS,
+    Engine,
+    Recording,
+    Structures,
+    why_numpy,
+    worth_compiling,
+)
 from ballscrew.engine.evaluation.structures import (
+    MOST_STEPS_OPTIMISED,
     OF_BALLS,
     groups_by_ball,
     inputs_of_structure,
+    keep,
+    kept,
+    name_of,
     numbers_alone,
     outputs_of_structure,
     recorded_structure,

@@ -18,10 +18,10 @@ from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import CannotRecordError
-from ballscrew.engine.evaluation.engines import Engine, engine_faults
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs, slope_name
 from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import Engine, engine_faults
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel

@@ -18,35 +18,31 @@ from ballscrew.basis.errors import (
     InputError,
     raise_if_any,
 )
-from ballscrew.compiler.kernels.buffers import ALIGNMENT, aligned_array
 from ballscrew.compiler.kernels.chain import LANES
 from ballscrew.compiler.kernels.emission import UnknownOperationError, lanes_for
-from ballscrew.compiler.kernels.kernel import LARGEST_CACHED, Kernel
-from ballscrew.compiler.kernels.watched import WatchedKernel
+from ballscrew.compiler.kernels.kernel import ALIGNMENT, LARGEST_CACHED, Kernel, WatchedKernel, aligned_array
 from ballscrew.compiler.tracing.grid import Split, inner_axes, rectangles
 from ballscrew.compiler.tracing.program import Program, Source
-from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
-from ballscrew.compiler.tracing.tape import CannotRecordError
-from ballscrew.engine.evaluation.axes import ends
+from ballscrew.compiler.tracing.tape import COLUMNS, ROWS, CannotRecordError
 from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
-from ballscrew.engine.evaluation.engines import (
+from ballscrew.engine.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
+from ballscrew.engine.evaluation.outputs import OPERATION, ends
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import (
     ASKED_FOR,
     KNOWN,
     PAYS,
     SWEEP_ENGINES,
     Engine,
+    Recording,
     SweepEngine,
     engine_faults,
     may_be_compiled,
+    recording,
     why_numpy,
     worth_compiling,
 )
-from ballscrew.engine.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
-from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.recordings import Recording, recording
-from ballscrew.engine.evaluation.structure_kernels import BLOCK_OF_POINTS, Structure, StructureKernel
-from ballscrew.engine.evaluation.structures import ENOUGH_TO_FOLD
+from ballscrew.engine.evaluation.structures import BLOCK_OF_POINTS, ENOUGH_TO_FOLD, Structure, StructureKernel
 
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
 FEWEST_COLUMNS = 256

@@ -15,19 +15,25 @@ from ballscrew.basis.arrays import BLOCK_SIZE, map_blocks
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any, without_unit
 from ballscrew.basis.quantities import Quantity, ends_within, within_bounds
 from ballscrew.compiler.kernels import kernel as kernels
-from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError
-from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.kernel import Kernel, aligned_array
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
 from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
 from ballscrew.engine.evaluation.derivatives import JAX_INSTEAD
-from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, Engine, engine_faults, why_numpy
 from ballscrew.engine.evaluation.outputs import OPERATION, Output, slope_name
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.recordings import Recording, recording
-from ballscrew.engine.evaluation.structure_kernels import BLOCK_OF_POINTS, Structure, StructureKernel
+from ballscrew.engine.evaluation.recordings import (
+    ASKED_FOR,
+    KNOWN,
+    Engine,
+    Recording,
+    engine_faults,
+    recording,
+    why_numpy,
+)
+from ballscrew.engine.evaluation.structures import BLOCK_OF_POINTS, Structure, StructureKernel
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel

@@ -26,13 +26,15 @@ from ballscrew.basis.version import __version__
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape, why_not_recorded
-from ballscrew.engine.evaluation.axes import axis_of, ends, faults_of_axis
 from ballscrew.engine.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
     OPERATION,
     Output,
     attributes_of,
+    axis_of,
+    ends,
+    faults_of_axis,
     inputs_of,
     known_outputs,
 )
@@ -40,7 +42,7 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut, NutParts
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.model import SLOTS, FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import implausible, named_parts
@@ -257,9 +259,9 @@ class Configuration(ByValue):
         """
         every = {name: np.atleast_1d(np.asarray(values, dtype=float)) for name, values in points.items()}
         there = self.changed({name: values for name, values in every.items() if name not in OPERATION})
-        left = starvation.replenished(there.model, there.screw, there.lubricant, every["screw_speed"])
+        left = validity.replenished(there.model, there.screw, there.lubricant, every["screw_speed"])
         left = np.broadcast_to(left, every["screw_speed"].shape)
-        places = np.flatnonzero(left < starvation.NEARLY_ALL)
+        places = np.flatnonzero(left < validity.NEARLY_ALL)
         most = max(_MOST_BALLS // self.balls, _JUDGED)
         if places.size > most:
             some = np.linspace(0, places.size - 1, most).astype(int)
@@ -267,9 +269,9 @@ class Configuration(ByValue):
         torques: list[tuple[float, float]] = []
         for first in range(0, places.size, _AT_ONCE):
             result = self.at({name: values[places[first : first + _AT_ONCE]] for name, values in every.items()})
-            both = starvation.most_starved(result.screw_torque, result.flooded_torque)
+            both = validity.most_starved(result.screw_torque, result.flooded_torque)
             torques += [] if both is None else [both]
-        most_of_all = starvation.most_starved(*np.transpose(torques)) if torques else None
+        most_of_all = validity.most_starved(*np.transpose(torques)) if torques else None
         return [] if most_of_all is None else _starvation_record(*most_of_all, remark)
 
     def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
@@ -433,10 +435,10 @@ class Plan:
         Of all points where they are few, or else of the corners of the grid and of some spread evenly over it; None
         where the torques hardly differ at any of these.
         """
-        if self._least_replenished >= starvation.NEARLY_ALL:
+        if self._least_replenished >= validity.NEARLY_ALL:
             return None
         result = self.subject.at({**self.fixed, **self.points_at(self._some_places)})
-        return starvation.most_starved(result.screw_torque, result.flooded_torque)
+        return validity.most_starved(result.screw_torque, result.flooded_torque)
 
     @property
     def _least_replenished(self) -> float:
@@ -452,7 +454,7 @@ class Plan:
         corners = [corner.reshape(-1) for corner in np.meshgrid(*of_oil.values(), indexing="ij")]
         there = self.subject.changed(dict(zip(of_oil, corners, strict=True)))
         fastest = float(np.max(np.abs(self.extremes["screw_speed"])))
-        return starvation.least_replenished(there.model, there.screw, there.lubricant, fastest)
+        return validity.least_replenished(there.model, there.screw, there.lubricant, fastest)
 
     @property
     def _some_places(self) -> np.ndarray:
@@ -500,7 +502,7 @@ def starvation_of(attributes: Mapping[str, Any]) -> list[Record]:
 
 def _starvation_record(given: float, flooded: float, remark: str | None) -> list[Record]:
     torque = quantities_of(FrictionResult)["screw_torque"]
-    return starvation.records([starvation.BothTorques(torque, given, flooded)], remark)
+    return validity.records([validity.BothTorques(torque, given, flooded)], remark)
 
 
 def _wanted(section: str, names: Sequence[str] | None, nut: Nut) -> tuple[str, ...]:

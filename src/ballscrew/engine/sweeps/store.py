@@ -40,8 +40,17 @@ from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.engine.evaluation.evaluation import Engine, Evaluation
 from ballscrew.engine.evaluation.plan import Plan
 from ballscrew.engine.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan
-from ballscrew.engine.sweeps.store_files import OTHER, WHERE, Content, refuse_unsafe, row
-from ballscrew.engine.sweeps.store_plan import Blocks, description_of, differences, sealed
+from ballscrew.engine.sweeps.store_plan import (
+    OTHER,
+    WHERE,
+    Blocks,
+    Content,
+    description_of,
+    differences,
+    refuse_unsafe,
+    row,
+    sealed,
+)
 
 #: Suffixes that mean a file, not the folder of a store.
 _FILES = (".csv", ".xlsx", ".nc", ".json", ".toml")

@@ -14,8 +14,22 @@ from pathlib import Path
 from typing import Any, Self
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.engine.sweeps.store_files import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
-from ballscrew.engine.sweeps.store_plan import FORMAT, Blocks, checksum, is_plan, read_sealed
+from ballscrew.engine.sweeps.store_plan import (
+    BYTES,
+    FALSE,
+    FORMAT,
+    OTHER,
+    OWN,
+    WHERE,
+    Blocks,
+    Content,
+    cells_of,
+    checksum,
+    is_plan,
+    read_sealed,
+    row,
+    unreadable,
+)
 
 #: The metadata of the dataset, and of each variable.
 ROOT = "zarr.json"

@@ -23,8 +23,7 @@ from zarr.storage import LocalStore, MemoryStore, WrapperStore
 from ballscrew.engine.evaluation.outputs import attributes_of
 from ballscrew.engine.evaluation.plan import Plan
 from ballscrew.engine.sweeps.store_check import ROOT, Contents, contents_of
-from ballscrew.engine.sweeps.store_files import Content
-from ballscrew.engine.sweeps.store_plan import Blocks
+from ballscrew.engine.sweeps.store_plan import Blocks, Content
 
 #: LZ4 with the bytes of equal weight side by side: a map of seven outputs takes 0.72 of its bytes, and
 #: a disk slower than a processor compresses has the less to do. Zstandard saves 0.02 more at most and

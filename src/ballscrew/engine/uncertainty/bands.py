@@ -18,16 +18,18 @@ from ballscrew.basis.displayed import Displayed
 from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import AngularSpeed, Force
 from ballscrew.engine.evaluation.comparison import Candidate
-from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import Engine
 from ballscrew.engine.uncertainty.band_evaluation import (
     DERIVED_OUTPUTS,
     POSITIVE,
     VALIDITY,
     Alternative,
     BandEvaluator,
+    PointGroup,
     Sample,
     Values,
+    bands_of,
     evaluated_outputs,
     faults_of_inputs,
     faults_of_options,
@@ -36,7 +38,6 @@ from ballscrew.engine.uncertainty.band_evaluation import (
     sample_probabilities,
     tails,
 )
-from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.engine.uncertainty.monte_carlo import Joint
 from ballscrew.physics.components.materials import Lubricant

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import map_blocks
 from ballscrew.basis.errors import MISSING, Fault, raise_if_any
-from ballscrew.engine.evaluation.engines import Engine, SweepEngine, engine_faults
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION, attributes_of
 from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import Engine, SweepEngine, engine_faults
 from ballscrew.engine.uncertainty.distributions import (
     Distribution,
     allowed,

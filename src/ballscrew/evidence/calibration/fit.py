@@ -1,4 +1,7 @@
-"""Calibration: the numbers of a model that a log of torques tells, and which of them it cannot tell."""
+"""Calibration: the numbers of a model that a log of torques tells, and which of them it cannot tell.
+
+The constant torque as what a fit without it misses: found by a second fit, with it free.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +16,13 @@ from numpy.typing import NDArray
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
-from ballscrew.engine.evaluation.engines import Engine, engine_faults
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.evaluation.recordings import Engine, engine_faults
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.evidence.calibration import baselines
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
-from ballscrew.evidence.calibration.diagnostics import warning_records
+from ballscrew.evidence.calibration.diagnostics import verdict_records, warning_records
 from ballscrew.evidence.calibration.fit_result import (
     AS_GIVEN,
     CALIBRATED,
@@ -27,20 +31,31 @@ from ballscrew.evidence.calibration.fit_result import (
     Rows,
     Score,
 )
-from ballscrew.evidence.calibration.identifiability import MAXIMUM_RELATIVE_ERROR, Identifiability, Uncertainty
-from ballscrew.evidence.calibration.jackknife import jackknife_covariance, operating_points
-from ballscrew.evidence.calibration.oil_temperature import (
+from ballscrew.evidence.calibration.identifiability import (
+    MAXIMUM_RELATIVE_ERROR,
+    Identifiability,
+    Uncertainty,
+    jackknife_covariance,
+    operating_points,
+)
+from ballscrew.evidence.calibration.problem import (
+    CONSTANT_TORQUE,
+    Priors,
+    Problem,
+    TorqueConvention,
+    drift_of,
+    escape_insensitive_start,
+    identify_convention,
+)
+from ballscrew.evidence.calibration.response import (
     MOST_TEMPERATURE_ERROR,
+    Response,
     TemperatureError,
+    resolve_input,
     torque_per_kelvin,
     usual_error,
 )
-from ballscrew.evidence.calibration.plausibility import verdict_records
-from ballscrew.evidence.calibration.priors import Priors
-from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start
-from ballscrew.evidence.calibration.response import Response, resolve_input
 from ballscrew.evidence.calibration.robust import Solution, Vector, loss_of, solve
-from ballscrew.evidence.calibration.torque_conventions import TorqueConvention, identify_convention
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import Lubricant
@@ -96,13 +111,13 @@ def fit(
 
     ``priors`` are distributions of free numbers, ``bounds`` pairs in SI beside those that the numbers have anyway.
     ``kind`` says whether ``torque`` is ``"friction"`` or ``"drive"`` torque; otherwise the model tells (see
-    :mod:`~ballscrew.evidence.calibration.torque_conventions`). ``inertia`` (kg m²) takes the acceleration out of a
+    :mod:`~ballscrew.evidence.calibration.problem`). ``inertia`` (kg m²) takes the acceleration out of a
     drive torque. ``temperature_error`` (K) is half the width of the 95 % interval of the oil temperature, an error that
     all rows share and that no number of rows makes smaller: 2 K where the log has temperatures that the oil follows,
     otherwise 10 K. It does not move the estimates; their covariance has it
     (:mod:`~ballscrew.evidence.calibration.baselines`). The ``dynamic_load_rating`` (N) is what a fitted preload
     is judged by: numbers that no screw has are among the verdicts
-    (:mod:`~ballscrew.evidence.calibration.plausibility`). The share ``holdout`` of the operating points, drawn with the
+    (:mod:`~ballscrew.evidence.calibration.diagnostics`). The share ``holdout`` of the operating points, drawn with the
     ``seed``, is not fitted but predicted. Zero error and drift of the sensor are fitted beside the rest where the log
     can tell them from friction (:mod:`~ballscrew.evidence.calibration.problem`).
 
@@ -532,4 +547,35 @@ def _scores(problem: Problem, rows: Rows, torques: Vector) -> list[Score]:
     return [
         Score(words, count, rows.rms(predicted - log.torque, fitted), rows.rms(predicted - log.torque, rows.held_out))
         for words, (count, predicted) in described.items()
+    ]
+
+
+#: Signs that the model misses more than noise: then it is tried whether the constant torque is what it misses.
+_SIGNS = ("fit.baseline_better", "fit.trend")
+#: A number that brings the residuals below this share of what they were is worth a word.
+_WORTH = 0.7
+
+
+def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str]], CalibratedModel]) -> list[Record]:
+    """That the constant torque is what the model misses, if a fit with it free shows so.
+
+    Friction of seals and bearings is in nearly every log, and this fit is cheap: no contact is solved anew.
+    """
+    free = model.settings["free"]
+    if CONSTANT_TORQUE.name in free or not any(record.id in _SIGNS for record in model.warning_records):
+        return []
+    try:
+        more = refit([*free, CONSTANT_TORQUE.name])
+    except InputError:  # too few rows for one number more
+        return []
+    before, after = model.residual_rms, more.residual_rms
+    if not more.estimates[CONSTANT_TORQUE.name].identified or after > _WORTH * before:
+        return []
+    message = (
+        f"with the constant torque free, too, the rows miss by {units.in_unit(after, 'N m', 2)} instead of "
+        f"{units.in_unit(before, 'N m', 2)}: the log has friction of seals or bearings, which the model of the "
+        "balls does not; free it"
+    )
+    return [
+        Record.warning("fit.free_more", CONSTANT_TORQUE.name, message, value=after, limit=_WORTH * before, unit="N m")
     ]

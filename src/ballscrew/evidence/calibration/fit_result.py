@@ -16,12 +16,9 @@ from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 from ballscrew.evidence.calibration.identifiability import Identifiability, Uncertainty
-from ballscrew.evidence.calibration.oil_temperature import TemperatureError
-from ballscrew.evidence.calibration.priors import Priors
-from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Problem
-from ballscrew.evidence.calibration.response import Response
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Priors, Problem, TorqueConvention
+from ballscrew.evidence.calibration.response import Response, TemperatureError
 from ballscrew.evidence.calibration.robust import BIWEIGHT_CUTOFF, MAD_TO_STANDARD_DEVIATION, Solution
-from ballscrew.evidence.calibration.torque_conventions import TorqueConvention
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew

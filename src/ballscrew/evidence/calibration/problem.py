@@ -1,9 +1,20 @@
-"""A fit as a problem of least squares: its parameters, and the torque of every row with its derivatives by them."""
+"""A fit as a problem of least squares: its parameters, and the torque of every row with its derivatives by them.
+
+Priors: knowledge of parameters before a log is read, as residuals beside those of the log.
+
+Torque conventions: whether the torque column of a log is friction or drive torque, and with which signs.
+
+Rigs differ, and headings seldom state it. A torque is ``ideal · |M_Sa| + friction · M_S``, the two signs
+by row. The conventions in use are far apart, so that the model identifies the one that was used. Both signs together
+say on which side of the nut the load is, whatever sign the column of the load has.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Mapping, Sequence
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +22,191 @@ from numpy.typing import NDArray
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.distributions import Distribution, Normal
+from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform
+from ballscrew.evidence.calibration.baselines import robust_linear
 from ballscrew.evidence.calibration.response import Response
-from ballscrew.evidence.calibration.robust import Vector, loss_of
-from ballscrew.evidence.calibration.torque_conventions import TorqueConvention
+from ballscrew.evidence.calibration.robust import (
+    Prior,
+    Vector,
+    loss_of,
+    scatter_of,
+)
+from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
+
+#: Regularisation of unidentified parameters: a weak normal prior about the start with this many scales as deviation.
+REGULARISATION_SCALE = 10.0
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Priors:
+    """Distributions of some of the parameters of a fit, by place.
+
+    A normal prior is the residual ``(x − mean)/deviation``, a log-normal one ``ln(x/median)/ln(factor)``; a triangular
+    one counts as the normal of its mean and deviation, and a uniform one as bounds alone.
+    """
+
+    given: Mapping[int, Distribution]
+    start: Vector
+    scale: Vector
+
+    @property
+    def all(self) -> Prior:
+        """The priors, and the weak regularisation of all parameters."""
+
+        def residuals(x: Vector) -> Vector:
+            return np.concatenate([self.residuals(x), (x - self.start) / (REGULARISATION_SCALE * self.scale)])
+
+        def slopes(x: Vector) -> Vector:
+            return np.vstack([self.slopes(x), np.diag(1 / (REGULARISATION_SCALE * self.scale))])
+
+        return Prior(residuals, slopes)
+
+    def residuals(self, x: Vector) -> Vector:
+        """Residuals of the priors, in standard deviations."""
+        return np.array([_residual(prior, x[i])[0] for i, prior in self._informative])
+
+    def slopes(self, x: Vector) -> Vector:
+        """Derivatives of the residuals by the parameters."""
+        slopes = np.zeros((len(self._informative), x.size))
+        for row, (i, prior) in enumerate(self._informative):
+            slopes[row, i] = _residual(prior, x[i])[1]
+        return slopes
+
+    def deviation(self, place: int, value: float) -> float | None:
+        """The standard deviation that the prior of a parameter leaves; None without one."""
+        told = dict(self._informative)
+        return None if place not in told else abs(1 / _residual(told[place], value)[1])
+
+    @property
+    def _informative(self) -> Sequence[tuple[int, Normal | LogNormal | Triangular]]:
+        return [(i, prior) for i, prior in self.given.items() if not isinstance(prior, Uniform)]
+
+
+def _residual(prior: Normal | LogNormal | Triangular, x: float) -> tuple[float, float]:
+    """The residual of a prior and its derivative."""
+    match prior:
+        case LogNormal(median, factor):
+            x = max(x, 1e-12 * median)
+            return math.log(x / median) / math.log(factor), 1 / (x * math.log(factor))
+        case Normal(mean, deviation):
+            return (x - mean) / deviation, 1 / deviation
+        case Triangular(low, mode, high):
+            mean = (low + mode + high) / 3
+            deviation = math.sqrt((low**2 + mode**2 + high**2 - low * mode - low * high - mode * high) / 18)
+            return (x - mean) / deviation, 1 / deviation
+
+
+#: The source of the sign of a part of the torque: load, speed, both (the direction of the power), or nothing.
+Sign = Literal["load", "against load", "speed", "motion", "none", "absent"]
+
+
+class TorqueConvention(NamedTuple):
+    """The kind of a torque, and the sources of the signs of the ideal torque and the friction torque in it."""
+
+    kind: Kind
+    description: str
+    ideal: Sign
+    friction: Sign
+    #: Whether the column has the opposite sign throughout.
+    reversed: bool = False
+
+    def loads(self, axial_load: Vector, screw_speed: Vector) -> Vector:
+        """The loads with the signs of the model: positive where a positive speed works against them.
+
+        Those of the column, unless the torque says that it has their sizes alone or the opposite signs.
+        """
+        if self.ideal == "absent":
+            return np.asarray(axial_load)
+        ideal, friction = self._signs(axial_load, screw_speed)
+        return np.abs(axial_load) * ideal * friction * np.sign(screw_speed)
+
+    def weights(self, axial_load: Vector, screw_speed: Vector) -> Vector:
+        """The factors of ideal torque and friction torque under :meth:`loads`, of shape (2, rows)."""
+        _, friction = self._signs(axial_load, screw_speed)
+        # an ideal torque with the sign of its load works against friction where it has not that of the speed
+        return np.stack([friction * np.sign(screw_speed) * (self.ideal != "absent"), friction])
+
+    def _signs(self, axial_load: Vector, screw_speed: Vector) -> Vector:
+        """The signs of the size of the ideal torque and of the friction torque in the column, of shape (2, rows)."""
+        load, speed = np.sign(axial_load), np.sign(screw_speed)
+        nothing = np.zeros_like(screw_speed)
+        signs: dict[Sign, Vector] = {
+            "load": load,
+            "against load": -load,
+            "speed": speed,
+            "motion": load * speed,
+            "none": nothing + 1,
+            "absent": nothing,
+        }
+        direction = -1.0 if self.reversed else 1.0
+        return direction * np.stack([signs[self.ideal], signs[self.friction]])
+
+
+#: The simplest first: of conventions that fit a log equally well, the first is taken.
+CONVENTIONS: Sequence[TorqueConvention] = (
+    TorqueConvention("friction", "friction torque, its sign that of the speed", "absent", "speed"),
+    TorqueConvention("friction", "magnitude of the friction torque", "absent", "none"),
+    TorqueConvention("drive", "torque on the shaft, load and speed with their signs", "load", "speed"),
+    TorqueConvention("drive", "torque on the shaft, the load always against the motion", "speed", "speed"),
+    TorqueConvention("drive", "torque on the shaft, loads with the opposite sign", "against load", "speed"),
+    TorqueConvention("drive", "torque in the direction of the motion", "motion", "none"),
+    TorqueConvention("drive", "magnitude of the driving torque", "none", "none"),
+    TorqueConvention("drive", "magnitude of the torque on the shaft", "none", "motion"),
+)
+#: A convention replaces a simpler one if its residual is below this share of the other's.
+DECISIVE_RATIO = 0.9
+#: Friction of this ratio to the model's counts as a doubled residual: models are hardly further off.
+IMPLAUSIBLE_RATIO = 5.0
+#: Rows that the conventions are compared on, evenly spaced.
+MAXIMUM_ROWS = 2000
+
+
+def identify_convention(
+    torque: Vector,
+    torques: Vector,
+    axial_load: Vector,
+    screw_speed: Vector,
+    drift: Vector | None = None,
+    kind: Kind = "unknown",
+    known: TorqueConvention | None = None,
+) -> tuple[TorqueConvention, float]:
+    """The convention under which a column is nearest to a model, and the scatter that remains.
+
+    ``torques`` are the ideal torque and the friction torque of the model, of shape (2, rows). Friction may be any
+    multiple of the model's and have a constant part, and the sensor a zero error and a ``drift`` where friction has
+    both signs: the remaining scatter is that which no fit removes. A known ``kind`` restricts the conventions, one that
+    is ``known`` itself is the only one.
+    """
+    some = np.linspace(0, torque.size - 1, min(torque.size, MAXIMUM_ROWS)).astype(np.int64)
+    choices = [convention for convention in CONVENTIONS if kind in ("unknown", convention.kind)]
+    choices += [one._replace(reversed=True, description=f"{one.description}; reversed") for one in choices]
+    choices = choices if known is None else [known]
+
+    def penalised_scatter(convention: TorqueConvention) -> tuple[float, float]:
+        weights = convention.weights(axial_load[some], screw_speed[some])
+        ideal = np.abs(torques[0][some]) * np.sign(convention.loads(axial_load[some], screw_speed[some]))
+        columns = [weights[1] * torques[1][some], weights[1]]
+        if np.any(weights[1] > 0) and np.any(weights[1] < 0):
+            columns += [np.ones(some.size), *([] if drift is None else [drift[some]])]
+        rest = torque[some] - weights[0] * ideal
+        stacked = np.stack(columns, axis=1)
+        result, _ = robust_linear(stacked, rest)
+        scatter = scatter_of(stacked @ result - rest, torque)
+        typical = float(np.median(torques[1][some])) or 1.0
+        # friction at a typical row over the model's, constant part included
+        factor = result[0] + result[1] / typical
+        if not factor > 0:
+            return np.inf, scatter
+        return scatter * (1 + (np.log(factor) / np.log(IMPLAUSIBLE_RATIO)) ** 2), scatter
+
+    scatters = [penalised_scatter(convention) for convention in choices]
+    best = 0
+    for place, (penalised, _) in enumerate(scatters):
+        if penalised < DECISIVE_RATIO * scatters[best][0]:
+            best = place
+    return choices[best], scatters[best][1]
+
 
 #: Friction that depends on nothing but the direction, and that no model of the balls has.
 CONSTANT_TORQUE = Quantity(

@@ -4,41 +4,21 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Info, Power, Quantity, Torque, Unit, quantities_of
 from ballscrew.evidence.moving_logs.moving_log import quantities
-from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import (
     NO_COLUMN,
     Column,
-    Heading,
     bare,
-    checked,
-    fits,
     headings_in,
-    likely_headings,
-    spelt,
-    unused,
 )
 from ballscrew.files.tables.sheets import Record
-from ballscrew.files.torque_logs.columns import (
-    BRACKETS,
-    WITHIN,
-    Layout,
-    are_units,
-    as_in_file,
-    dates_in,
-    headings_of,
-    of_text,
-    texts_in,
-    with_option,
-    with_unit,
-)
+from ballscrew.files.torque_logs.columns import WITHIN, Layout, LogColumns, given_columns, layout, renamed
 from ballscrew.files.torque_logs.log_rows import within
 
 _NAMES: Mapping[str, tuple[str, ...]] = {
@@ -90,7 +70,7 @@ class _ForceLike:
 
 QUANTITIES: Mapping[str, Quantity] = {**quantities(), **quantities_of(_ForceLike)}
 COLUMNS = tuple(Column(name, QUANTITIES[name], names, name == "time", _HINTS) for name, names in _NAMES.items())
-_BY_NAME: Mapping[str, Column] = {column.name: column for column in COLUMNS}
+MOVING_LOG = LogColumns("a moving log", COLUMNS, (FORCES, PATHS), has_constants=False)
 _TIMES = frozenset(map(bare, ("time", *_NAMES["time"])))
 #: Channels of the EMPS benchmark (JanotGautierBrunot2019) with the units that its description gives, and its gain, N/V.
 EMPS: Mapping[str, str] = {"time": "t [s]", "position": "qm [m]", "voltage": "vir [V]"}
@@ -109,40 +89,9 @@ def moving_layout(path: Path, records: Sequence[Record], flags: Mapping[str, str
 
     Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
-    rows, written = _renamed(records, flags)
-    columns = [column for column in _wanted({_known(name) for name in flags}) if has_time or column.name != "time"]
-    start, headings = headings_in(path, rows, columns, WITHIN)
-    headings = as_in_file(_chosen(headings), start, written)
-    body = rows[start + 1 :]
-    below = bool(body) and are_units(headings, body[0])
-    if below:
-        headings = [with_unit(heading, body[0]) for heading in headings]
-        body = body[1:]
-    dates = dates_in(headings, body)
-    headings = [of_text(heading) if dates and heading.column.name == "time" else heading for heading in headings]
-    try:
-        good = checked(path, headings, rows[start], body, columns)
-    except InputError as error:
-        there = headings_of(records[start])
-        raise InputError(
-            *(with_option(fault, headings, _BY_NAME, there, constants=False) for fault in error.faults)
-        ) from None
-    _check_needed(path, good)
-    rest = unused(records[start], good, body[:WITHIN])
-    above = [records[start], records[start + 1]] if below else [records[start]]
-    words = frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell)
-    named = {heading.column.name: heading for heading in good}
-    return Layout(
-        path.name,
-        named,
-        {},
-        above[-1].line,
-        len(records[start].cells),
-        decimals.evidence(texts_in(good, body)),
-        dates,
-        rest,
-        words,
-    )
+    result = layout(path, records, flags, MOVING_LOG, () if has_time else ("time",))
+    _check_needed(path, result.headings)
+    return result
 
 
 def headings_of_axis(records: Sequence[Record], axis: str) -> list[Record]:
@@ -175,7 +124,7 @@ def has_columns(records: Sequence[Record], flags: Mapping[str, str]) -> bool:
     if not records:
         return False
     try:
-        rows, _ = _renamed(records, flags)
+        rows, _, _ = renamed(records, given_columns(flags, MOVING_LOG), MOVING_LOG)
         _, headings = headings_in(Path("log"), rows, COLUMNS, WITHIN)
     except InputError:
         return False
@@ -183,71 +132,10 @@ def has_columns(records: Sequence[Record], flags: Mapping[str, str]) -> bool:
     return {"time", "position"} <= names and bool(names & {*FORCES})
 
 
-def _known(name: str) -> str:
-    column = _BY_NAME.get(name) or next((column for column in COLUMNS if column.answers_to(name)), None)
-    if column is None:
-        raise InputError(Fault("--column", "is no column of a moving log", name, nearest(name, _BY_NAME)))
-    return column.name
-
-
-def _renamed(records: Sequence[Record], flags: Mapping[str, str]) -> tuple[list[Record], dict[tuple[int, int], str]]:
-    """Rows with the headings given by the user under their standard names, and the cells as written."""
-    rows, written = list(records), dict[tuple[int, int], str]()
-    for flag, text in flags.items():
-        name = _known(flag)
-        parts = BRACKETS.fullmatch(" ".join(text.split()))
-        wanted, unit = (parts["name"], spelt(parts["unit"])) if parts else (text.strip(), "")
-        quantity = QUANTITIES[name]
-        if unit and not fits(unit, _BY_NAME[name]):
-            fault = units.parse(f"--column {name}", f"1 {unit}", quantity)
-            raise InputError(fault if isinstance(fault, Fault) else Fault(f"--column {name}", "wrong unit", unit))
-        places = [
-            (number, place)
-            for number, record in enumerate(records[:WITHIN])
-            for place, cell in enumerate(record.cells)
-            if isinstance(cell, str) and cell and bare(cell) in {bare(text), bare(wanted), bare(f"{wanted} {unit}")}
-        ]
-        if not places:
-            there = headings_of(likely_headings(records[:WITHIN], COLUMNS))
-            raise InputError(Fault(f"--column {name}", "is not a column of the file", text, nearest(wanted, there)))
-        number, place = min(places, key=lambda at: str(records[at[0]].cells[at[1]]) not in {text, wanted})
-        written[number, place] = str(records[number].cells[place])
-        cell = str(records[number].cells[place])
-        own = BRACKETS.fullmatch(cell)
-        unit = unit or (own["unit"] if own else "")
-        cells = list(rows[number].cells)
-        cells[place] = f"{name} [{unit}]" if unit else name
-        rows[number] = Record(rows[number].line, cells)
-    return rows, written
-
-
-def _wanted(given: set[str]) -> tuple[Column, ...]:
-    """The columns to look for: one that is given by its heading has no other name, and rules out its likes."""
-    others = {other for family in (FORCES, PATHS) if given & {*family} for other in family} - given
-    return tuple(
-        dataclasses.replace(column, aliases=(), hints=()) if column.name in given else column
-        for column in COLUMNS
-        if column.name not in others
-    )
-
-
-def _chosen(headings: Sequence[Heading]) -> list[Heading]:
-    """Of the columns that stand for each other the one that says most."""
-    names = {heading.column.name for heading in headings}
-    dropped = {
-        name
-        for family in (FORCES, PATHS)
-        for name in family
-        if name != next((one for one in family if one in names), None)
-    }
-    return [heading for heading in headings if heading.column.name not in dropped]
-
-
-def _check_needed(path: Path, headings: Sequence[Heading]) -> None:
-    names = {heading.column.name for heading in headings}
+def _check_needed(path: Path, names: Collection[str]) -> None:
     for family, meaning in ((FORCES, "force"), (PATHS[::-1], "position")):
-        if not names & {*family}:
-            column = _BY_NAME[family[0]]
-            others = ", ".join(_BY_NAME[name].example for name in family[1:])
+        if not {*names} & {*family}:
+            column = MOVING_LOG.by_name[family[0]]
+            others = ", ".join(MOVING_LOG.by_name[name].example for name in family[1:])
             remedy = f'name it: --column {column.name}="your heading [{QUANTITIES[column.name].shown_in}]"; or {others}'
             raise InputError(Fault(path.name, f"has no column of a {meaning}", "", remedy, id=NO_COLUMN))

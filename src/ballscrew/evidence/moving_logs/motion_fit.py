@@ -13,14 +13,13 @@ from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_an
 from ballscrew.basis.quantities import Force, Info, Quantity, Ratio, Unit, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.evidence.moving_logs.equation import AT_REST, DeadTime, Equation, dead_time
+from ballscrew.evidence.moving_logs.equation import AT_REST, DeadTime, Equation, dead_time, relative_error
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.evidence.moving_logs.power_law import PowerLaw, power_law
-from ballscrew.evidence.moving_logs.regression import relative_error
-from ballscrew.evidence.moving_logs.screw_friction import ScrewFriction
 from ballscrew.evidence.moving_logs.screw_model import (
     NAMES,
     LinearModel,
+    ScrewFriction,
     ScrewModelFit,
     fit_screw_model,
     linear_model,
@@ -201,7 +200,7 @@ def fit_motion(
     of the resampled logs.
 
     Intervals are of 95 % and hold for residuals that follow each other
-    (:mod:`~ballscrew.evidence.moving_logs.regression`). They do not hold the friction that no model has: of the
+    (:mod:`~ballscrew.evidence.moving_logs.equation`). They do not hold the friction that no model has: of the
     position along the screw, of temperature, of rest.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for logs that cannot be used, with the row and the remedy, for a

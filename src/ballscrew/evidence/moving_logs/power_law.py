@@ -16,9 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.evidence.moving_logs.equation import Equation
+from ballscrew.evidence.moving_logs.equation import Equation, LeastSquares, bootstrap_sums, relative_error
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
-from ballscrew.evidence.moving_logs.regression import LeastSquares, bootstrap_sums, relative_error
 from ballscrew.files.torque_logs.motion import Floats
 
 #: Exponents that are tried, between which a parabola finds the best.

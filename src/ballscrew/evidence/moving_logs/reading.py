@@ -11,7 +11,6 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,16 +31,14 @@ from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.files.tables.headings import NO_COLUMN
 from ballscrew.files.tables.sheets import Record, unreadable
 from ballscrew.files.torque_logs import columns
-from ballscrew.files.torque_logs.columns import Layout
-from ballscrew.files.torque_logs.matlab_files import is_matlab, variables
+from ballscrew.files.torque_logs.columns import columns_not_used
 from ballscrew.files.torque_logs.motion import Floats
 from ballscrew.files.torque_logs.reading import NumberReader, read
-from ballscrew.files.torque_logs.sources import source_of
+from ballscrew.files.torque_logs.sources import LogSource, MatlabLog, source_of
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 #: Rows of text that are read at a time, and most rows of a moving log.
 CHUNK, MOST_ROWS = 200_000, 5_000_000
-_BEGIN = 512
 #: Speeds below this share of the largest make no force of a power.
 _SLOWEST = 0.05
 _Numbers = dict[str, Floats]
@@ -75,12 +72,7 @@ def read_moving(
     """
     path, columns = Path(path), columns or {}
     try:
-        begin = _first_bytes(path)
-        if is_matlab(path, begin):
-            result, line, notes, own_gain = _of_matlab(path, begin, columns)
-        else:
-            result, line, notes = _of_table(path, columns, keep_going, axis, period)
-            own_gain = None
+        result, line, notes, own_gain = _rows_of(path, columns, keep_going, axis, period)
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
@@ -114,11 +106,9 @@ def is_moving(path: Path, columns: Mapping[str, str]) -> bool:
     if {"axial_load", "screw_speed", "feed_rate"} & {*columns}:
         return False
     try:
-        begin = _first_bytes(path)
-        result = _matlab_records(variables(path, begin)[0]) if is_matlab(path, begin) else _top_of(path)
-        if is_matlab(path, begin) and is_emps(result[0].cells):
-            return True
-        return has_columns(result, columns) and not _is_steady(path, result)
+        with path.open("rb") as file:
+            source = source_of(path, file, None)
+        return _is_emps(source) or (has_columns(source.found, columns) and not _is_steady(path, source.found))
     except (InputError, OSError, ValueError):
         return False
 
@@ -137,52 +127,21 @@ def _is_steady(path: Path, records: Sequence[Record]) -> bool:
     return True
 
 
-def _first_bytes(path: Path) -> bytes:
-    with path.open("rb") as file:
-        return file.read(_BEGIN)
+def _is_emps(source: LogSource) -> bool:
+    return isinstance(source, MatlabLog) and is_emps(source.found[0].cells)
 
 
-def _top_of(path: Path) -> Sequence[Record]:
-    with path.open("rb") as file:
-        return source_of(path, file, None).found
-
-
-def _matlab_records(arrays: Mapping[str, NDArray[Any]]) -> list[Record]:
-    top = min((values.size for values in arrays.values()), default=0)
-    columns = list(arrays.values())
-    return [Record(0, list(arrays)), *(Record(1 + row, [c[row] for c in columns]) for row in range(min(5, top)))]
-
-
-def _of_matlab(
-    path: Path, begin: bytes, columns: Mapping[str, str]
+def _rows_of(
+    path: Path, columns: Mapping[str, str], keep_going: bool, axis: str, period: float | None
 ) -> tuple[_Numbers, NDArray[np.int64], list[str], float | None]:
     """Columns in SI, the numbers of their rows, remarks, and the gain of the EMPS benchmark."""
-    arrays, numbers = variables(path, begin)
     notes: list[str] = []
-    if is_emps(list(arrays)):
-        columns = {**EMPS, **columns}
-        notes.append("read as a record of the EMPS benchmark: t in s, qm in m, vir in V, gtau in N/V")
-    place = moving_layout(path, _matlab_records(arrays), columns)
-    every = list(arrays.values())
-    result = {name: h.offset + h.scale * every[h.place] for name, h in place.headings.items()}
-    sizes = {place.headings[name].written: values.size for name, values in result.items()}
-    if len(set(sizes.values())) > 1:
-        listed = ", ".join(f"{name} {size}" for name, size in sizes.items())
-        raise InputError(Fault(path.name, "has columns of different lengths", listed, "give every column each row"))
-    notes += _of_unused(place)
-    return (
-        result,
-        np.arange(1, 1 + next(iter(sizes.values()))),
-        notes,
-        numbers.get(EMPS_GAIN) if is_emps(list(arrays)) else None,
-    )
-
-
-def _of_table(
-    path: Path, columns: Mapping[str, str], keep_going: bool, axis: str, period: float | None
-) -> tuple[_Numbers, NDArray[np.int64], list[str]]:
+    gain: float | None = None
     with path.open("rb") as file:
         source = source_of(path, file, None)
+        if isinstance(source, MatlabLog) and _is_emps(source):
+            columns, gain = {**EMPS, **columns}, source.numbers.get(EMPS_GAIN)
+            notes.append("read as a record of the EMPS benchmark: t in s, qm in m, vir in V, gtau in N/V")
         if not source.found:
             raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
         top = headings_of_axis(source.found, axis) if axis else source.found
@@ -206,7 +165,8 @@ def _of_table(
     if not line.size:
         raise InputError(Fault(path.name, "has no rows below its headings", "", "give one row for each sample"))
     result = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    notes = [] if axis else _of_unused(place)
+    if place.unused and not axis:
+        notes.append(columns_not_used(place.unused))
     if period is not None:
         result["time"] = period * np.arange(line.size, dtype=float)
         notes.append(f"time: a row each {period:g} s, as given")
@@ -214,11 +174,7 @@ def _of_table(
         notes.append(f"axis {axis}: units that headings do not have are mm, mm/s, A and kW")
     if cells.bad_rows:
         notes.append(f"{cells.bad_rows} rows have cells that are no numbers: they count as missing")
-    return result, line, notes
-
-
-def _of_unused(place: Layout) -> list[str]:
-    return [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
+    return result, line, notes, gain
 
 
 def _empty(name: str, floats: Mapping[str, Floats]) -> list[Fault]:

@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Quantity
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, allowed
+from ballscrew.engine.uncertainty.uncertain_value import NORMAL_95
 from ballscrew.evidence.calibration.fit import CONSTANT_LOSS, with_constant_torque
-from ballscrew.evidence.calibration.oil_temperature import VISCOSITY, torque_of_model
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
-from ballscrew.evidence.calibration.response import resolve_input
+from ballscrew.evidence.calibration.response import VISCOSITY, resolve_input, torque_of_model
 from ballscrew.evidence.calibration.robust import BIWEIGHT_CUTOFF, Vector, noise_of
 from ballscrew.evidence.service.posterior import PRELOAD, Readings, errors_of_sensor
 from ballscrew.physics.components.oil_grades import TEMPERATURE

@@ -13,14 +13,12 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import AngularSpeed, MomentOfInertia, Temperature
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_share
+from ballscrew.engine.uncertainty.uncertain_value import NORMAL_95
 from ballscrew.evidence.calibration.robust import Vector
-from ballscrew.evidence.service.change_detection import Trend, chart, robust_scatter, trend
-from ballscrew.evidence.service.condition_means import Means, of_logs, of_series
+from ballscrew.evidence.service.condition_means import Means, Trend, chart, of_logs, of_series, robust_scatter, trend
 from ballscrew.evidence.service.condition_records import records_of
-from ballscrew.evidence.service.condition_reduction import Reduction, reduced
-from ballscrew.evidence.service.condition_values import Condition, State, parts_of
+from ballscrew.evidence.service.condition_values import Condition, Reduction, State, parts_of, reduced
 from ballscrew.evidence.service.posterior import MODEL_ERROR
 from ballscrew.evidence.service.preload_change import held_numbers, with_preload
 from ballscrew.files.torque_logs.log_rows import Kind

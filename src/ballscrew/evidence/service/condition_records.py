@@ -11,15 +11,13 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.engine.uncertainty.uncertain_value import NORMAL_95
 from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
-from ballscrew.evidence.calibration.oil_temperature import torque_of_model
-from ballscrew.evidence.calibration.response import resolve_input
+from ballscrew.evidence.calibration.response import resolve_input, torque_of_model
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.alternatives import BOUNDARY_FRICTION, FACTOR, KELVIN
 from ballscrew.evidence.service.condition_means import Means
-from ballscrew.evidence.service.condition_reduction import Reduction
-from ballscrew.evidence.service.condition_values import CONSTANT, WARMER, Condition, Part
+from ballscrew.evidence.service.condition_values import CONSTANT, WARMER, Condition, Part, Reduction
 from ballscrew.evidence.service.diagnostics import temperature_trend
 from ballscrew.evidence.service.posterior import FRICTION, MODEL_ERROR, PRELOAD
 from ballscrew.evidence.service.preload_change import VERDICTS

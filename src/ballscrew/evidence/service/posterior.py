@@ -18,13 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_quantile, standard_normal_share
+from ballscrew.engine.uncertainty.uncertain_value import NORMAL_95
 from ballscrew.evidence.calibration.baselines import LOGGED_TEMPERATURE
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.fit import points_of
-from ballscrew.evidence.calibration.oil_temperature import torque_of_model, usual_error
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
+from ballscrew.evidence.calibration.response import torque_of_model, usual_error
 from ballscrew.evidence.calibration.robust import Vector
 
 if TYPE_CHECKING:

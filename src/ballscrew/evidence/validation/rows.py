@@ -15,7 +15,7 @@ from ballscrew.axis.supports.bearing import SupportBearing
 from ballscrew.basis.errors import Fault, InputError, either
 from ballscrew.basis.quantities import Ratio, Torque, fields_of
 from ballscrew.evidence.validation.entries import RPM, Band, Conditions, OperatingPoint, Point, UpperLimitOnly, Values
-from ballscrew.files.tables.column_names import YES
+from ballscrew.files.tables.headings import YES
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
@@ -25,8 +25,8 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.conditions import ContactConditions, Motion
 from ballscrew.physics.laws.nut_losses import Seals
-from ballscrew.physics.sizing.accuracy_factors import factors_of_makes
 from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.makers_tables import factors_of_makes
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.sizing.rigidity import rigidity_iso3408
 from ballscrew.physics.sizing.rules import CHART_LINES, DRAG_RULES, LOADED_RULES, RULES, Subject, of_model

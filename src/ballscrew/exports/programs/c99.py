@@ -7,11 +7,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ballscrew.exports.export import Export, Target, filled
+from ballscrew.exports.export import Export, Target, filled, readme
 from ballscrew.exports.programs.c_source import Body, body_of, number, own_functions
 from ballscrew.exports.programs.interpreter import errors_of_program
 from ballscrew.exports.programs.presliding import OPTIONS, options_of_case, presliding
-from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 from ballscrew.physics.friction.validity import NUT_REASONS
 

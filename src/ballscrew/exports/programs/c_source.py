@@ -15,7 +15,7 @@ import numpy as np
 
 from ballscrew.compiler.tracing.merging import Reduction
 from ballscrew.compiler.tracing.program import Program
-from ballscrew.compiler.tracing.steps import Operand, Step, choose
+from ballscrew.compiler.tracing.tape import Operand, Step, choose
 from ballscrew.exports.export import data, refusal
 from ballscrew.exports.programs.two_levels import TwoLevels, two_levels
 from ballscrew.exports.subject import HandOver

@@ -21,10 +21,20 @@ from numpy.typing import NDArray
 
 from ballscrew.basis import units
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.exports.export import Export, Option, Target, Values, WorstError, data, refusal, warning, worst_errors
+from ballscrew.exports.export import (
+    Export,
+    Option,
+    Target,
+    Values,
+    WorstError,
+    data,
+    readme,
+    refusal,
+    warning,
+    worst_errors,
+)
 from ballscrew.exports.programs import interpreter
-from ballscrew.exports.programs.program_file import program_file
-from ballscrew.exports.readme import readme
+from ballscrew.exports.programs.interpreter import program_file
 from ballscrew.exports.subject import TEMPERATURE, HandOver
 
 #: The speed over which friction goes through zero, rad/s, as in ``data/exports/fmi_model.c``.

@@ -10,7 +10,7 @@ import math
 import re
 
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.exports.export import Export, Option, Target, filled, refusal
+from ballscrew.exports.export import Export, Option, Target, filled, readme, refusal
 from ballscrew.exports.programs import c99
 from ballscrew.exports.programs.joint_friction import (
     JOINT_OPTIONS,
@@ -24,7 +24,6 @@ from ballscrew.exports.programs.joint_friction import (
     provenance_line,
 )
 from ballscrew.exports.programs.two_levels import two_levels
-from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 
 _NOTES = """\

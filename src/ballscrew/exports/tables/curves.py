@@ -22,8 +22,7 @@ from ballscrew.basis.quantities import Force, Info, Quantity, unit_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.exports.export import Export, Option, Target, WorstError, refusal, warning, worst_errors
-from ballscrew.exports.readme import made_of
+from ballscrew.exports.export import Export, Option, Target, WorstError, made_of, refusal, warning, worst_errors
 from ballscrew.exports.subject import POINTS, HandOver
 from ballscrew.exports.tables.friction_table import (
     INTERPOLATED,

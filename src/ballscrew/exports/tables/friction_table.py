@@ -19,8 +19,17 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.exports.export import Export, Option, Values, WorstError, refusal, warning, worst_errors
-from ballscrew.exports.readme import table_lines, table_readme
+from ballscrew.exports.export import (
+    Export,
+    Option,
+    Values,
+    WorstError,
+    refusal,
+    table_lines,
+    table_readme,
+    warning,
+    worst_errors,
+)
 from ballscrew.exports.subject import POINTS, HandOver
 from ballscrew.physics.friction import directions
 

@@ -13,8 +13,7 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.basis.errors import nearest
-from ballscrew.exports import readme
-from ballscrew.exports.export import Export, Option, Target, refusal
+from ballscrew.exports.export import AT_REST, BEYOND, SIGNS, Export, Option, Target, made_of, refusal
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.tables.friction_table import OPTIONS, TableJob
 
@@ -63,10 +62,10 @@ def dataset(made: TableJob) -> xr.Dataset:
     values: dict[str, Any] = {name: (dims, array, described[name]) for name, array in table.values.items()}
     values["valid"] = (dims, table.valid.astype(np.int8), described["valid"])
     of_table = {
-        "title": readme.made_of(job)[0],
+        "title": made_of(job)[0],
         "source": "ballscrew " + job.provenance["version"],
         "references": ", ".join(job.provenance["references"]),
-        "comment": " ".join([readme.SIGNS, readme.AT_REST, readme.BEYOND]),
+        "comment": " ".join([SIGNS, AT_REST, BEYOND]),
         "interpolation": "linear in screw_torque and ideal_torque",
         "error_between_nodes": table.error,
         **{f"worst_error_{entry.output}": entry.value for entry in made.errors if entry.output != "valid"},
@@ -111,9 +110,9 @@ def _json(made: TableJob) -> bytes:
         | {"valid": described("valid", table.valid.astype(int))},
         "fixed": {name: {"unit": job.units[name], "value": value} for name, value in table.fixed.items()},
         "interpolation": "linear in screw_torque and ideal_torque",
-        "signs": readme.SIGNS,
-        "at_rest": readme.AT_REST,
-        "beyond_range": readme.BEYOND,
+        "signs": SIGNS,
+        "at_rest": AT_REST,
+        "beyond_range": BEYOND,
         "error_between_nodes": table.error,
         "worst_error": {entry.output: entry.document() for entry in made.errors},
         "provenance": job.provenance,

@@ -47,7 +47,7 @@ def _print_rows(answer: Answer, output: Output, to: Path | None) -> None:
 
     output.print(answer.sheet, answer.document)
     if to is not None:
-        files.write(to, answer.sheet)
+        files.write_tables(to, answer.sheet)
         typer.echo(f"{to}: {answer.size}", err=True)
 
 

@@ -37,7 +37,7 @@ def cite(
 ) -> None:
     """BibTeX of the sources that a case makes use of."""
     from ballscrew.basis.references import bibliography
-    from ballscrew.cases.case_files.inputs import references
+    from ballscrew.cases.case_files.descriptions import references
 
     entries = bibliography()
     keys = list(entries) if case is None else references(case_options.load(case))

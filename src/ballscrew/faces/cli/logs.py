@@ -100,9 +100,9 @@ def fit(
     else:
         sheet, size = _fit_torques(case, tables, loaded, log, written, output, to, verbose=verbose)
     if picture is not None:
-        from ballscrew.faces.sheets import to_file
+        from ballscrew.faces.sheets import files
 
-        to_file.write(picture, sheet, option="--picture")
+        files.write(picture, sheet, option="--picture")
         output.note(f"{picture}: {size} rows")
 
 
@@ -302,7 +302,7 @@ def _fit_rows(
     rows_sheet = of_rows(reports)
     output.print(rows_sheet, documents)
     if table is not None:
-        files.write(table, rows_sheet)
+        files.write_tables(table, rows_sheet)
     if to is not None:
         typer.echo(f"{to}: {len(reports) - len(left_out)} screws", err=True)
     raise_if_any(left_out)

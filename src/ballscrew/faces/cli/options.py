@@ -78,7 +78,7 @@ class Output:
 
         Those of its ``own_kinds`` come last, as there may be nothing to write into them.
         """
-        from ballscrew.faces.sheets import to_file
+        from ballscrew.faces.sheets.files import write
 
         self.print(answer.sheet, answer.document)
         for path in sorted(files, key=lambda path: path.suffix.lower() in own_kinds):
@@ -86,7 +86,7 @@ class Output:
             if answer.write is not None and path.suffix.lower() in own_kinds:
                 size = answer.write(path)
             else:
-                to_file.write(path, answer.sheet, files[path], option)
+                write(path, answer.sheet, files[path], option)
             self.note(f"{path}: {size}" if size else f"{path}")
 
 

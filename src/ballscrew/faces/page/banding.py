@@ -22,13 +22,13 @@ from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.engine.uncertainty import bands
 from ballscrew.engine.uncertainty.band_evaluation import DERIVED_OUTPUTS, Sample, tails
-from ballscrew.engine.uncertainty.default_uncertainties import (
+from ballscrew.engine.uncertainty.distributions import UNREACHED, allowed, standard_normal_share
+from ballscrew.engine.uncertainty.uncertain_value import (
     NEAR,
     NORMAL_95,
     DefaultUncertainty,
     default_distributions,
 )
-from ballscrew.engine.uncertainty.distributions import UNREACHED, allowed, standard_normal_share
 from ballscrew.exports.wasm_modules import Function, KeptModule, Module, compiled, described
 from ballscrew.faces.page import kinds
 from ballscrew.faces.page.modules import inputs_of_module

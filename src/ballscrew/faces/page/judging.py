@@ -20,14 +20,12 @@ from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import BALL, Function, Module, compiled, described
 from ballscrew.faces.page import kinds
-from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
-from ballscrew.physics.friction.touching import FlankPair, MostLoadedBall, touched
+from ballscrew.physics.friction.ball_section import Arc, FlankPair, MostLoadedBall, contact_width, land_height, touched
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.checks import GIVEN_LIMIT, values_of_limits
-from ballscrew.physics.sizing.derived import LISTED, derived
-from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
-from ballscrew.physics.sizing.judged import JUDGED, documents, judged, outputs
+from ballscrew.physics.sizing.judged import JUDGED, LISTED, derived, documents, judged, outputs
+from ballscrew.physics.sizing.makers_tables import GENERAL, speed_limit_of
 from ballscrew.physics.sizing.rules import rule_of
 
 #: What else is computed at once: points that differ from that of the visitor in these inputs.

@@ -6,9 +6,8 @@ import dataclasses
 from collections.abc import Sequence
 
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.evaluation.structure_kernels import keep, name_of
-from ballscrew.engine.evaluation.structures import inputs_of_structure
-from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
+from ballscrew.engine.evaluation.structures import inputs_of_structure, keep, name_of
+from ballscrew.engine.uncertainty.uncertain_value import default_uncertainties
 from ballscrew.exports.wasm_modules import OUTPUTS, KeptModule, kept_module, module_of
 from ballscrew.faces.page import kinds
 from ballscrew.questions.band.compute import of_makers

@@ -1,14 +1,14 @@
 """The ball between its grooves, drawn to scale as SVG: the section across its path, and its contact with the screw.
 
 The page and the report show the same drawing. What is physics in it is in
-:mod:`ballscrew.faces.report.contact_geometry` and below; the rest is places on paper.
+:mod:`ballscrew.faces.report.drawing_contact` and below; the rest is places on paper.
 """
 
 from __future__ import annotations
 
 from ballscrew.cases.case_files import descriptions
 from ballscrew.faces.report import drawing_contact, drawing_section, svg
-from ballscrew.faces.report.contact_geometry import drawn_ball
+from ballscrew.faces.report.drawing_contact import drawn_ball
 from ballscrew.questions.run.compute import Run
 
 WIDTH = 600.0

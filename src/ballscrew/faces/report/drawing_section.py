@@ -7,10 +7,10 @@ import math
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.faces.report import svg
-from ballscrew.faces.report.contact_geometry import DrawnBall
+from ballscrew.faces.report.drawing_contact import DrawnBall
 from ballscrew.faces.report.svg import FAINT, GREEN, LINE, TEXT, TITLE, Panel, Point
-from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
 from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.ball_section import Arc, contact_width, land_height
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.questions.run.compute import Touching
 

@@ -15,12 +15,11 @@ from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
 from ballscrew.faces.sheets.report_blocks import Table
 from ballscrew.faces.sheets.report_blocks import value as value_of
-from ballscrew.physics.components.data_sheet import DataSheet
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.oil_grades import TEMPERATURE, OilState, nominal_oil
+from ballscrew.physics.components.oil_grades import TEMPERATURE, DataSheet, OilState, nominal_oil
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
-from ballscrew.physics.friction.law_names import LAWS, coefficients
+from ballscrew.physics.friction.model import LAWS, coefficients
 from ballscrew.physics.sizing.installation import Limits
 
 #: Where a value is from, in a word; :data:`FROM_IN_WORDS` says what is meant.
@@ -73,16 +72,22 @@ def _source(case: Case, place: str, source: str) -> str:
     return ESTIMATE if source == CASE and place in case.origins.estimated else source
 
 
-def _part(case: Case, part: Any, known: Mapping[str, Quantity], source: Callable[[str], str], section: str) -> Rows:
-    """The fields of a part, with their distribution where the case gives one."""
-    rows: Rows = []
+def _part(
+    case: Case, part: Any, known: Mapping[str, Quantity], section: str, source: Callable[[str], str] | None = None
+) -> Rows:
+    """The fields of a part, with their distribution where the case gives one.
+
+    By itself the ``source`` of a value is the case, or the default that it equals.
+    """
+    rows, usual = list[tuple[str, str, str]](), _defaults(type(part))
     for name, quantity in known.items():
         value = getattr(part, name)
         if value is not None:
             given = case.origins.uncertain.get(name)
             words = value_of(value, quantity) if given is None else describe_distribution(given, quantity)
             exact = " ± 0" if name in case.origins.exact else ""
-            word = CASE if given is not None else source(name)
+            own = DEFAULT if value == usual.get(name) else CASE
+            word = CASE if given is not None else own if source is None else source(name)
             rows.append((quantity.info.meaning, words + exact, _source(case, f"{section}.{name}", word)))
     return rows
 
@@ -103,7 +108,7 @@ def _screw(case: Case) -> Rows:
             return USUAL if name in assumed else ROW
         return CASE
 
-    rows = _part(case, case.screw, fields_of(BallScrew), source, "screw")
+    rows = _part(case, case.screw, fields_of(BallScrew), "screw", source)
     for name, value in case.origins.listed.items():
         listed = case.origins.row is not None and getattr(case.origins.row, name) == value
         word = ROW if listed else _source(case, f"screw.{name}", CASE)
@@ -153,11 +158,11 @@ def _lubricant(case: Case) -> Rows:
             return DEFAULT
         return GRADE if of_grade is not None and value == getattr(of_grade, name, None) else CASE
 
-    return [*rows, *_part(case, oil, fields_of(Lubricant), source, "lubricant")]
+    return [*rows, *_part(case, oil, fields_of(Lubricant), "lubricant", source)]
 
 
 def _operation(case: Case) -> Rows:
-    return _part(case, case.operation, fields_of(OperatingState), lambda _: CASE, "operation")
+    return _part(case, case.operation, fields_of(OperatingState), "operation", lambda _: CASE)
 
 
 def _nut(case: Case) -> Rows:
@@ -177,23 +182,17 @@ def _nut(case: Case) -> Rows:
         if nut.spacer_balls
         else []
     )
-    usual = _defaults(type(nut))
     own = {name: quantity for name, quantity in fields_of(nut).items() if getattr(nut, name) is not None}
-    rows += _part(case, nut, own, lambda n: DEFAULT if getattr(nut, n) == usual.get(n) else CASE, "nut")
+    rows += _part(case, nut, own, "nut")
     given = nut.bodies
     if given is not None:
         bodies = given.sized(case.screw)
         rows += _part(
-            case, bodies, fields_of(bodies), lambda n: DEFAULT if getattr(given, n) is None else CASE, "bodies"
+            case, bodies, fields_of(bodies), "bodies", lambda n: DEFAULT if getattr(given, n) is None else CASE
         )
     for section, part in nut.parts.items():
         if section not in ("nut", "bodies"):
-            own = _defaults(type(part))
-
-            def source(name: str, part: Any = part, own: Mapping[str, Any] = own) -> str:
-                return DEFAULT if getattr(part, name) == own.get(name) else CASE
-
-            rows += _part(case, part, fields_of(part), source, section)
+            rows += _part(case, part, fields_of(part), section)
     return rows
 
 
@@ -201,14 +200,8 @@ def _installation(case: Case) -> Rows:
     mounted = case.installation
     if mounted is None:
         return []
-    usual = _defaults(type(mounted))
     ends = next(name for name, known in ENDS.items() if known is mounted.ends)
-
-    def source(name: str) -> str:
-        return DEFAULT if getattr(mounted, name) == usual.get(name) else CASE
-
-    rows = _part(case, mounted, fields_of(mounted), source, "installation")
-    return [("ends of the screw", ends, CASE), *rows]
+    return [("ends of the screw", ends, CASE), *_part(case, mounted, fields_of(mounted), "installation")]
 
 
 def _limits(case: Case) -> Rows:
@@ -217,7 +210,7 @@ def _limits(case: Case) -> Rows:
         for name, quantity in fields_of(Limits).items()
         if getattr(case.limits, name) != getattr(_USUAL_LIMITS, name)
     }
-    return _part(case, case.limits, changed, lambda _: CASE, "limits")
+    return _part(case, case.limits, changed, "limits", lambda _: CASE)
 
 
 def _moved(case: Case) -> dict[str, Rows]:
@@ -230,13 +223,8 @@ def _moved(case: Case) -> dict[str, Rows]:
     rows: dict[str, Rows] = {}
     for title, part in parts.items():
         if part is not None:
-            usual = _defaults(type(part))
-
-            def source(name: str, part: Any = part, usual: Mapping[str, Any] = usual) -> str:
-                return DEFAULT if getattr(part, name) == usual.get(name) else CASE
-
             given = {name: quantity for name, quantity in fields_of(part).items() if getattr(part, name) is not None}
-            rows[title] = _part(case, part, given, source, title.lower())
+            rows[title] = _part(case, part, given, title.lower())
     return rows
 
 
@@ -263,7 +251,7 @@ def laws(case: Case) -> Table:
         ]
         source = CALIBRATION if slot in by_calibration and slot in changed else CASE if slot in changed else ""
         rows.append((slot.replace("_", " "), ": ".join(filter(None, [name, ", ".join(numbers)])), source))
-    rows += _part(case, model, fields_of(model), lambda n: CASE if n in changed else "", "model")
+    rows += _part(case, model, fields_of(model), "model", lambda n: CASE if n in changed else "")
     said = [(what, words + (f" (from: {source})" if source else "")) for what, words, source in rows]
     return Table(
         f"Laws and numbers of the model; what is not marked is that of {model.name}", _OF_LAWS, said, (0, 1), 1

@@ -12,7 +12,7 @@ import textwrap
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ballscrew.basis.output.markup import escaped
+from ballscrew.basis.output.text import escaped
 
 Point = tuple[float, float]
 

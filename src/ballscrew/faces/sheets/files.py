@@ -1,24 +1,29 @@
-"""A sheet as tables in files: all in a workbook, the first one of columns in CSV; numbers in the units of headings."""
+"""A sheet as tables in files: all in a workbook, the first one of columns in CSV; numbers in the units of headings.
+
+A sheet written to a file: tables (.csv, .xlsx) or a picture (.png, .svg, .pdf).
+"""
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.atomic_files import atomic_write
+from ballscrew.basis.atomic_files import atomic_write, check_writable
+from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.output.sheet import Cell, Column, Columns, Number, Share, Sheet, Table
+from ballscrew.questions.shared import charts, every_row
 from ballscrew.questions.shared.every_row import RowTable, write_csv, xlsx_bytes
 
 _DIGITS = 12
 
 
-def write(to: Path, sheet: Sheet, name: str = "") -> None:
+def write_tables(to: Path, sheet: Sheet, name: str = "") -> None:
     """Write .xlsx (all tables) or .csv, whole or not at all.
 
     CSV has the table of a name, or else the first, of columns where there are some.
@@ -87,3 +92,31 @@ def _end(cell: Cell, end: int) -> float | None:
     if not isinstance(cell, Number | Share) or cell.band is None:
         return None
     return _value(dataclasses.replace(cell, value=cell.band[end]))
+
+
+def check(paths: Iterable[Path], own_kinds: Sequence[str] = ()) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` now for files that could not be written later.
+
+    ``own_kinds`` are kinds of files that a question writes beside tables and pictures.
+    """
+    *others, last = (*every_row.KINDS, *charts.SUFFIXES, *own_kinds)
+    remedy = f"end it in {', '.join(others)} or {last}"
+    unknown = [path for path in paths if path.suffix.lower() not in (*others, last)]
+    raise_if_any([Fault("--to", "unknown kind of file", str(path), remedy) for path in unknown])
+    for path in paths:
+        if path.suffix.lower() in own_kinds:
+            check_writable("--to", path)
+        elif path.suffix.lower() in every_row.KINDS:
+            every_row.check_path(path)
+        else:
+            charts.check_picture(path)
+
+
+def write(to: Path, sheet: Sheet, name: str = "", option: str = "--to") -> None:
+    """Write one file, whole or not at all: .csv has the columns of a name, or the first; ``option`` asks for it."""
+    if to.suffix.lower() in every_row.KINDS:
+        write_tables(to, sheet, name)
+    else:
+        from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
+
+        charts.draw(lambda: pictures.picture(sheet), to, option)

@@ -12,9 +12,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 from ballscrew.basis import units
-from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import Bars, Chart, Lines, Map, Sheet, sentence, words
 from ballscrew.basis.output.sheet import Table as SheetTable
+from ballscrew.basis.output.text import plain
 from ballscrew.basis.quantities import Quantity
 from ballscrew.questions.shared.charts import named, svg_of
 

@@ -7,7 +7,7 @@ import operator
 from collections.abc import Iterator
 
 from ballscrew.basis.output.sheet import Line, Lines, Sheet, Table, words
-from ballscrew.basis.output.wrapping import aligned, beside, wrapped
+from ballscrew.basis.output.text import aligned, beside, wrapped
 
 _BAR = 24
 

@@ -19,8 +19,7 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.compiler.kernels import kernel
 from ballscrew.engine.evaluation.fingerprint import recorder_digest
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.evaluation.structure_kernels import keep, name_of
-from ballscrew.engine.evaluation.structures import inputs_of_structure
+from ballscrew.engine.evaluation.structures import inputs_of_structure, keep, name_of
 from ballscrew.exports.wasm_modules import (
     OUTPUTS,
     KeptModule,

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.files.tables import decimals
+from ballscrew.files.tables import cells
 from ballscrew.files.tables.cells import shown, text_of, value_of
 from ballscrew.files.tables.headings import NOTHING, Column, Heading, checked, headings_in, known_heading_of, unused
 from ballscrew.files.tables.sheets import Record, records
@@ -71,7 +71,7 @@ def read(path: Path, columns: Sequence[Column]) -> Table:
     table = Table(
         path.name, {h.column.name: h for h in headings}, (), (), len(body), unused(result[start], headings, body)
     )
-    decimal = decimals.evidence(_texts(headings, body))
+    decimal = cells.evidence(_texts(headings, body))
     rows: list[Row] = []
     faults: list[tuple[int, Fault]] = []
     for record in body:

@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import dataclasses
 import datetime
+import functools
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.files.tables import decimals
+from ballscrew.files.tables import cells
 from ballscrew.files.tables.headings import (
     NEEDS_UNIT,
     NO_COLUMN,
@@ -115,7 +116,27 @@ COLUMNS = tuple(
     )
     for name, names in _NAMES.items()
 )
-_BY_NAME: Mapping[str, Column] = {column.name: column for column in COLUMNS}
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LogColumns:
+    """The columns of a kind of log, which is called by its ``noun``."""
+
+    noun: str
+    columns: Sequence[Column]
+    #: Columns that stand for each other, the one that says most first.
+    families: Sequence[Sequence[str]]
+    #: Whether a number may stand for a column: it is the same in every row.
+    has_constants: bool = True
+
+    @functools.cached_property
+    def by_name(self) -> Mapping[str, Column]:
+        """The columns by name."""
+        return {column.name: column for column in self.columns}
+
+
+TORQUE_LOG = LogColumns("a log", COLUMNS, (tuple(TORQUES), _SPEEDS))
+_BY_NAME = TORQUE_LOG.by_name
 
 #: Dates and times that are known, as pandas has them.
 CLOCK = "clock"
@@ -182,34 +203,47 @@ def is_load(cell: Any) -> bool:
     return heading is not None and heading.column.name == LOAD
 
 
-def layout(path: Path, records: Sequence[Record], flags: Mapping[str, str]) -> Layout:
+def layout(
+    path: Path,
+    records: Sequence[Record],
+    flags: Mapping[str, str],
+    kind: LogColumns = TORQUE_LOG,
+    without: Collection[str] = (),
+) -> Layout:
     """The layout of a file, from its first rows and the columns given by the user, by name.
+
+    A log of a ``kind``, in which some columns are not looked for (``without``).
 
     Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
-    given = _given_columns(flags)
-    rows, constants, named = _renamed(records, given)
-    columns = _wanted(given)
+    given = given_columns(flags, kind)
+    rows, constants, named = renamed(records, given, kind)
+    columns = [column for column in _wanted(given, kind) if column.name not in without]
     start, headings = headings_in(path, rows, columns, WITHIN)
-    columns, headings = _chosen(columns, headings, constants)
-    headings = as_in_file(headings, start, named)
+    columns, headings = _chosen(columns, headings, constants, kind)
+    headings = _as_in_file(headings, start, named)
     body = rows[start + 1 :]
-    units_below = bool(body) and are_units(headings, body[0])
-    without_load = _has_no_load(rows[start], body[0] if units_below else None, headings, constants)
+    units_below = bool(body) and _are_units(headings, body[0])
+    without_load = LOAD in kind.by_name and _has_no_load(
+        rows[start], body[0] if units_below else None, headings, constants
+    )
     if without_load:
         constants = {**constants, LOAD: 0.0}
         columns = [column for column in columns if column.name != LOAD]
     if units_below:
-        headings = [with_unit(heading, body[0]) for heading in headings]
+        headings = [_with_unit(heading, body[0]) for heading in headings]
     body = body[units_below:]
-    dates = dates_in(headings, body)
-    headings = [of_text(heading) if dates and heading.column.name == "time" else heading for heading in headings]
+    dates = _dates_in(headings, body)
+    headings = [_of_text(heading) if dates and heading.column.name == "time" else heading for heading in headings]
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
-        there = headings_of(records[start])
+        there = _headings_of(records[start])
         raise InputError(
-            *(with_option(fault, headings, _BY_NAME, there, constants=True) for fault in error.faults)
+            *(
+                _with_option(fault, headings, kind.by_name, there, constants=kind.has_constants)
+                for fault in error.faults
+            )
         ) from None
     rest = unused(records[start], good, body[:WITHIN])
     above = [records[start], records[start + 1]] if units_below else [records[start]]
@@ -219,7 +253,7 @@ def layout(path: Path, records: Sequence[Record], flags: Mapping[str, str]) -> L
         constants,
         above[-1].line,
         len(records[start].cells),
-        decimals.evidence(texts_in(good, body)),
+        cells.evidence(_texts_in(good, body)),
         dates,
         rest,
         frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell),
@@ -240,13 +274,14 @@ class _GivenColumn:
     unit: str
 
 
-def _given_columns(flags: Mapping[str, str]) -> list[_GivenColumn]:
+def given_columns(flags: Mapping[str, str], kind: LogColumns) -> list[_GivenColumn]:
+    """The columns given by the user, by name; raises for names and units that are none."""
     faults: list[Fault] = []
     result: list[_GivenColumn] = []
     for name, text in flags.items():
-        column = _BY_NAME.get(name) or next((column for column in COLUMNS if column.answers_to(name)), None)
+        column = kind.by_name.get(name) or next((column for column in kind.columns if column.answers_to(name)), None)
         if column is None:
-            faults.append(Fault("--column", "is no column of a log", name, nearest(name, _BY_NAME)))
+            faults.append(Fault("--column", f"is no column of {kind.noun}", name, nearest(name, kind.by_name)))
             continue
         written = " ".join(text.split())
         parts = BRACKETS.fullmatch(written)
@@ -261,8 +296,8 @@ def _given_columns(flags: Mapping[str, str]) -> list[_GivenColumn]:
     return result
 
 
-def _renamed(
-    records: Sequence[Record], given: Sequence[_GivenColumn]
+def renamed(
+    records: Sequence[Record], given: Sequence[_GivenColumn], kind: LogColumns
 ) -> tuple[list[Record], dict[str, float], dict[tuple[int, int], str]]:
     """Rows with the given columns under their standard names, the constants, and the cells as written."""
     rows = list(records)
@@ -279,14 +314,14 @@ def _renamed(
             if heading is not None or bare(cell) in {bare(one.written), bare(one.name)}
         ]
         if not places:
-            constants[one.column.name] = _constant(one, records)
+            constants[one.column.name] = _constant(one, records, kind)
             continue
         # "T" is rather "T" than "t"
         number, place, heading = min(places, key=lambda result: _match_rank(one, str(rows[result[0]].cells[result[1]])))
         unit = one.unit or (heading.unit if heading else "")
         written[number, place] = str(records[number].cells[place])
         name = one.column.name.replace("_", " ")
-        cells = [_without_column(one.column, cell) for cell in rows[number].cells]
+        cells = [_without_column(one.column, cell, kind) for cell in rows[number].cells]
         cells[place] = f"{name} [{unit}]" if unit else name
         rows[number] = Record(rows[number].line, cells)
     return rows, constants, written
@@ -312,55 +347,54 @@ def _match_rank(one: _GivenColumn, cell: str) -> int:
     return 0 if cell == one.written else 1 if one.name in {cell, parts["name"] if parts else cell} else 2
 
 
-def _without_column(column: Column, cell: Any) -> Any:
+def _without_column(column: Column, cell: Any, kind: LogColumns) -> Any:
     """A cell; empty where it would be read as this column."""
-    heading = known_heading_of(cell, 0, COLUMNS)
+    heading = known_heading_of(cell, 0, kind.columns)
     return "" if heading is not None and heading.column is column else cell
 
 
-def _constant(one: _GivenColumn, records: Sequence[Record]) -> float:
+def _constant(one: _GivenColumn, records: Sequence[Record], kind: LogColumns) -> float:
     quantity = one.column.quantity
     assert quantity is not None
     where = f"--column {one.column.name}"
-    if re.match(r"[-+]?\.?\d", one.written):
+    if kind.has_constants and re.match(r"[-+]?\.?\d", one.written):
         value = units.parse(where, one.written, quantity)
         if isinstance(value, Fault):
             raise InputError(value)
         return value
-    headings = headings_of(likely_headings(records[:WITHIN], COLUMNS))
+    headings = _headings_of(likely_headings(records[:WITHIN], kind.columns))
     raise InputError(Fault(where, "is not a column of the file", one.written, nearest(one.name, headings)))
 
 
-def headings_of(record: Record) -> list[str]:
+def _headings_of(record: Record) -> list[str]:
     """The headings in a row of a file, those that a message has room for."""
     texts = [cell for cell in record.cells if isinstance(cell, str) and cell]
     return [text for text in texts if not re.match(r"[-+]?[.,]?\d", text)][:_LISTED]
 
 
-def as_in_file(headings: Sequence[Heading], start: int, written: Mapping[tuple[int, int], str]) -> list[Heading]:
+def _as_in_file(headings: Sequence[Heading], start: int, written: Mapping[tuple[int, int], str]) -> list[Heading]:
     """Headings as the file has them, where the user named their columns: messages are about what stands there."""
     return [dataclasses.replace(one, written=written.get((start, one.place), one.written)) for one in headings]
 
 
-def _wanted(given: Sequence[_GivenColumn]) -> tuple[Column, ...]:
+def _wanted(given: Sequence[_GivenColumn], kind: LogColumns) -> list[Column]:
     """The columns to look for: of those that stand for each other, only the one given."""
     names = {one.column.name for one in given}
-    others = {other for family in (tuple(TORQUES), _SPEEDS) if names & {*family} for other in family} - names
-    kept = (
+    others = {other for family in kind.families if names & {*family} for other in family} - names
+    return [
         dataclasses.replace(column, aliases=(), hints=()) if column.name in names else column
-        for column in COLUMNS
+        for column in kind.columns
         if column.name not in others
-    )
-    return tuple(kept)
+    ]
 
 
 def _chosen(
-    columns: Sequence[Column], headings: Sequence[Heading], constants: Mapping[str, float]
+    columns: Sequence[Column], headings: Sequence[Heading], constants: Mapping[str, float], kind: LogColumns
 ) -> tuple[list[Column], list[Heading]]:
     """Of the columns that stand for each other the one that says most; columns needed no more are not required."""
     names = {heading.column.name for heading in headings}
     dropped: set[str] = {*constants}
-    for family in (tuple(TORQUES), _SPEEDS):
+    for family in kind.families:
         there = [name for name in family if name in names or name in constants]
         dropped |= {name for name in family if name not in there[:1]} if there else set[str]()
     return (
@@ -376,7 +410,7 @@ def _bracketed(cell: Any) -> str:
     return str(cell).strip().strip("[]()").strip()
 
 
-def are_units(headings: Sequence[Heading], record: Record) -> bool:
+def _are_units(headings: Sequence[Heading], record: Record) -> bool:
     """Test whether a row has units and no numbers."""
     cells = [(heading.column, record.cells[heading.place]) for heading in headings if heading.place < len(record.cells)]
     texts = all(
@@ -390,13 +424,13 @@ def _unit_without_number(cell: str) -> str:
     return cell.removeprefix("[").removeprefix("1/")
 
 
-def with_unit(heading: Heading, record: Record) -> Heading:
+def _with_unit(heading: Heading, record: Record) -> Heading:
     """The heading with the unit that a row of units has for it, where it has none itself."""
     cell = _bracketed(record.cells[heading.place]) if heading.place < len(record.cells) else ""
     return heading if heading.unit or not cell else dataclasses.replace(heading, unit=spelt(cell))
 
 
-def dates_in(headings: Sequence[Heading], body: Sequence[Record]) -> str:
+def _dates_in(headings: Sequence[Heading], body: Sequence[Record]) -> str:
     """The format of the times if they are dates; nothing if they are numbers."""
     place = next((heading.place for heading in headings if heading.column.name == "time"), None)
     if place is None:
@@ -409,19 +443,19 @@ def dates_in(headings: Sequence[Heading], body: Sequence[Record]) -> str:
     return next((form for form, pattern in _DATES.items() if pattern.fullmatch(str(cells[0]))), "")
 
 
-def of_text(heading: Heading) -> Heading:
+def _of_text(heading: Heading) -> Heading:
     """The heading of a column of dates, which has no unit."""
     return dataclasses.replace(heading, unit="", column=dataclasses.replace(heading.column, quantity=None))
 
 
-def texts_in(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
+def _texts_in(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
     """The cells of quantities that are text: they show which decimal mark a file has."""
     places = [heading.place for heading in headings if heading.column.quantity is not None]
     cells = (record.cells[place] for record in body for place in places if place < len(record.cells))
     return [cell for cell in cells if isinstance(cell, str)]
 
 
-def with_option(
+def _with_option(
     fault: Fault,
     headings: Sequence[Heading],
     columns: Mapping[str, Column],

@@ -33,15 +33,19 @@ from ballscrew.basis.quantities import (
     fields_of,
 )
 from ballscrew.basis.usual_ranges import warn_at_once
-from ballscrew.physics.components.data_sheet import AT_40, AT_100, SHEET_TEMPERATURE, DataSheet, viscosity_index
 from ballscrew.physics.components.oil_grades import (
+    AT_40,
+    AT_100,
     PARAFFINIC,
+    SHEET_TEMPERATURE,
     TEMPERATURE,
+    DataSheet,
     LimitingShear,
     OilState,
     nominal_oil,
     oil_of_grade,
     oil_of_sheet,
+    viscosity_index,
 )
 from ballscrew.physics.equations import rheology
 
@@ -299,7 +303,7 @@ class Lubricant(ByValue):
         ASTMD1250, the pressure–viscosity coefficient the estimate of Jungnickel2010 for mineral oils. Below the
         ``pour_point`` (K), and outside the range that the maker states (``lowest_temperature`` to
         ``highest_temperature``, K), results carry a warning. ``name`` is that of the oil. See
-        :class:`~ballscrew.physics.components.data_sheet.DataSheet`.
+        :class:`~ballscrew.physics.components.oil_grades.DataSheet`.
 
         Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, an oil that is not thinner at 100
         °C, and a temperature outside 193.15–473.15 K (-80 to 200 °C).

@@ -1,9 +1,16 @@
-"""The operating state: load and speed with their signs, and the temperature."""
+"""The operating state: load and speed with their signs, and the temperature.
+
+An element: contacts that share a load, called with an operating state.
+
+The ball screw is one. Support bearings, guides and seals meet the same protocols, so that an axis can sum what its
+elements lose and needs to know no more of them.
+"""
 
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Protocol
 
 import numpy as np
 
@@ -16,7 +23,8 @@ from ballscrew.basis.errors import (
     names_keywords,
     raise_if_any,
 )
-from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Temperature, fields_of
+from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Mask, Power, Temperature, fields_of
+from ballscrew.basis.records import Record
 
 #: A load (N) or a speed (rad/s) nearer to zero than this is none to the formulas. A speed that decays to rest passes
 #: numbers whose reciprocals and powers leave the range of numbers of 64 bits; those of what is farther away do not.
@@ -94,3 +102,40 @@ def settled(values: Array) -> Array:
     if isinstance(values, np.float64) and not abs(values) < NOTHING:
         return values
     return where(abs(values) < NOTHING, 0.0, values)
+
+
+class ElementFriction(Protocol):
+    """What an axis needs to know of the friction of an element at an operating state."""
+
+    @property
+    def friction_effort(self) -> Array:
+        """Magnitude of the generalised friction force: a torque about the shaft (N m) or a force along a rail (N)."""
+        ...
+
+    @property
+    def contributions(self) -> Mapping[str, Array]:
+        """The effort by mechanism; the parts sum to it."""
+        ...
+
+    @property
+    def friction_power(self) -> Power:
+        """Power dissipated, W; the heat of the element."""
+        ...
+
+    @property
+    def validity(self) -> Mapping[str, Mask]:
+        """Masks of the conditions of the model, by reason."""
+        ...
+
+    @property
+    def warning_records(self) -> list[Record]:
+        """Warnings as records."""
+        ...
+
+
+class FrictionElement(Protocol):
+    """Anything that loses power in contacts under a load and in motion: its friction at an operating state."""
+
+    def __call__(self, state: OperatingState, /) -> ElementFriction:
+        """Friction at a state; load and speed are those of the element, with their signs."""
+        ...

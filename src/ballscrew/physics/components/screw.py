@@ -16,7 +16,7 @@ from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE, Written, warn_at_once
 from ballscrew.physics.components.materials import Material
 from ballscrew.physics.components.nut import PRELOAD, Nut, NutParts, SingleNut
-from ballscrew.physics.equations import geometry, hertz, rating
+from ballscrew.physics.equations import geometry, hertz, life
 
 #: With this conformity the formulas of ISO3408-5 give the ratings of catalogues (HIWIN2016), whose grooves have 0.54.
 RATING_CONFORMITY = 0.52
@@ -39,10 +39,10 @@ def dynamic_load_rating(
     """Dynamic axial load rating by the geometry, of balls that carry (ISO3408-5, as recalled)."""
     # the standard leaves the lead out of the curvature
     gamma = geometry.curvature_ratio(ball_diameter, ball_circle, contact_angle, lead_angle=0.0)
-    f_c = rating.geometry_factor(rating.contact_angle_factor(contact_angle), rating.curvature_factor(gamma), conformity)
-    C_s = rating.screw_turn_rating(f_c, contact_angle, balls_per_turn, ball_diameter, lead_angle)
-    C_i = rating.turn_rating(C_s, rating.turn_rating_ratio(gamma, conformity, conformity))
-    return rating.dynamic_load_rating(C_i, loaded_turns)
+    f_c = life.geometry_factor(life.contact_angle_factor(contact_angle), life.curvature_factor(gamma), conformity)
+    C_s = life.screw_turn_rating(f_c, contact_angle, balls_per_turn, ball_diameter, lead_angle)
+    C_i = life.turn_rating(C_s, life.turn_rating_ratio(gamma, conformity, conformity))
+    return life.dynamic_load_rating(C_i, loaded_turns)
 
 
 def rating_of(screw: Any) -> Force:

@@ -128,18 +128,6 @@ def ellipticity_brewe_hamrock(radii_ratio: Ratio) -> Ratio:
     return k ** (2 / xp.pi)
 
 
-def first_integral_brewe_hamrock(radii_ratio: Ratio) -> Ratio:
-    r"""Complete elliptic integral of the first kind, without solving for the ellipticity.
-
-    .. math:: K = \frac{\pi}{2} + \left(\frac{\pi}{2} - 1\right) \ln k
-
-    BreweHamrock1977. For 1 ≤ k ≤ 100: within 2.1 % there.
-    """
-    k = radii_ratio
-    xp = namespace(k)
-    return xp.pi / 2 + (xp.pi / 2 - 1) * xp.log(k)
-
-
 def second_integral_brewe_hamrock(radii_ratio: Ratio) -> Ratio:
     r"""Complete elliptic integral of the second kind, without solving for the ellipticity.
 

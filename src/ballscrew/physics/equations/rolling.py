@@ -207,21 +207,6 @@ def elastic_rolling_force_ellipse(
     return 3.6 * E * R_x * a * beta ** (-1 / 4) * (2 * U) ** 0.75
 
 
-def rigid_regime_share_ellipse(
-    ellipse_shape_parameter: Ratio, ellipticity: Ratio, load_parameter: Ratio, speed_parameter: Ratio
-) -> Ratio:
-    r"""Share of the rolling force that follows the isoviscous-rigid asymptote, by the Hertz ellipse.
-
-    .. math:: s = \frac{6.6 \kappa (2 U)^{3/4}}{6.6 \kappa (2 U)^{3/4} + \beta^{1/4} W}
-
-    BibouletHoupert2010 (32). Limits as in :func:`rigid_regime_share`.
-    """
-    beta, kappa, W, U = ellipse_shape_parameter, ellipticity, load_parameter, speed_parameter
-    xp = namespace(beta, kappa, W, U)
-    rigid = 6.6 * kappa * (2 * U) ** 0.75
-    return rigid / xp.maximum(rigid + beta ** (1 / 4) * W, SMALLEST)
-
-
 def elastic_rolling_force_houpert(
     equivalent_modulus: Pressure,
     rolling_radius: Length,

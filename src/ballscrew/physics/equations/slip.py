@@ -67,15 +67,6 @@ def single_line(traction_ratio: Ratio) -> Ratio:
     return -2 * xp.sin(xp.arcsin(T) / 3)
 
 
-def line_traction_ratio(lower_line: Ratio, upper_line: Ratio) -> Ratio:
-    r"""Net force of a contact, friction times load being one, that slips backwards between two lines.
-
-    .. math:: T = 1 - \frac{3}{2} (t_2 - t_1) + \frac{1}{2} \left(t_2^3 - t_1^3\right)
-    """
-    t_1, t_2 = lower_line, upper_line
-    return 1 - 3 / 2 * (t_2 - t_1) + 1 / 2 * (t_2**3 - t_1**3)
-
-
 def line_curvature_coefficient(lower_line: Ratio, upper_line: Ratio) -> Ratio:
     r"""Curvature moment of a contact that slips backwards between two lines: :math:`M_C = c_C \mu Q a^2/R_d`.
 

@@ -4,7 +4,7 @@ In motion the friction of the helix pushes the balls of two contacts across thei
 (:mod:`ballscrew.physics.equations.across_groove`). At the offset of two halves that a spacer keeps, all of them then
 press as if they were larger by the same: the nut is one with a larger preload. That the normals of both contacts lean
 changes the spin as well, the one way in one half and the other way in the other; that is left out here
-(:mod:`ballscrew.physics.moving_balls.across_groove`).
+(:mod:`ballscrew.physics.moving_balls.reversal`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Deviations, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import across_groove, deflection
+from ballscrew.physics.equations import across_groove, rigidity
 from ballscrew.physics.friction.balls import BallFriction
 from ballscrew.physics.friction.loaded_balls import LoadedBalls, loads_of
 from ballscrew.physics.laws.contact import Contact
@@ -102,7 +102,7 @@ def preload_off_line(screw: BallScrew, lateral_friction_angle: Angle) -> Force:
 
 def growth_of(screw: BallScrew, approach: Length, lateral_friction_angle: Angle) -> Length:
     """What the balls of ``screw`` that an ``approach`` presses press more off the line, at centres that stay."""
-    A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
+    A = rigidity.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     s, d_w = A + approach, screw.ball_diameter
     conformities = screw.screw_conformity, screw.nut_conformity
     one, other = ((conformity - 0.5) * d_w + approach / 2 for conformity in conformities)
@@ -164,6 +164,6 @@ def _of_elastic_bodies(screw: BallScrew, beta: Angle) -> Force:
 
 def _earlier_touch(screw: BallScrew, growth: Length) -> Length:
     """Axial displacement by which balls that are larger by a growth touch their flanks earlier."""
-    A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
+    A = rigidity.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     up, out = A * np.sin(screw.contact_angle), A * np.cos(screw.contact_angle)
     return (up - np.sqrt((A - growth) ** 2 - out**2)) / np.cos(screw.lead_angle)

@@ -12,7 +12,7 @@ from ballscrew.basis.arrays import lazy
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Mask, Power, Ratio, Speed, Torque
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import dissipation, equilibrium, geometry, kinematics
+from ballscrew.physics.equations import equilibrium, geometry, heat, kinematics
 from ballscrew.physics.equations.rolling import nut_pressure_force, screw_pressure_force
 from ballscrew.physics.laws.ball_chain import BallInCircuit, force_between_balls
 from ballscrew.physics.laws.conditions import Motion
@@ -176,20 +176,20 @@ class BallFriction:
         at_screw = kinematics.screw_contact_rotation(ball, relative, cosine)
         at_nut = kinematics.nut_contact_rotation(ball, orbit, cosine)
         return {
-            "hydrodynamic_rolling": dissipation.hydrodynamic_rolling_power(
+            "hydrodynamic_rolling": heat.hydrodynamic_rolling_power(
                 s.hydrodynamic_rolling_force, n.hydrodynamic_rolling_force, w + A_s / 2, w + A_n / 2
             ),
-            "elastic_hysteresis": dissipation.contact_moment_power(
+            "elastic_hysteresis": heat.contact_moment_power(
                 s.elastic_resistance_moment, n.elastic_resistance_moment, at_screw, at_nut
             ),
-            "curvature": dissipation.contact_moment_power(
+            "curvature": heat.contact_moment_power(
                 s.curvature_friction_moment, n.curvature_friction_moment, at_screw, at_nut
             )
-            + dissipation.creep_power(s.sliding_force, n.sliding_force, A_s, A_n),
-            "spin": dissipation.spin_power(self.spin_moment, s.spin + n.spin),
-            "helix": dissipation.torsion_power(self.lateral_force, s.lateral_slip_speed + n.lateral_slip_speed),
-            "ball_to_ball": dissipation.ball_rubbing_power(chain.moment, ball),
-            "chain_braking": dissipation.chain_braking_power(
+            + heat.creep_power(s.sliding_force, n.sliding_force, A_s, A_n),
+            "spin": heat.spin_power(self.spin_moment, s.spin + n.spin),
+            "helix": heat.torsion_power(self.lateral_force, s.lateral_slip_speed + n.lateral_slip_speed),
+            "ball_to_ball": heat.ball_rubbing_power(chain.moment, ball),
+            "chain_braking": heat.chain_braking_power(
                 chain.net_braking_force, kinematics.orbital_speed(orbit, frame.path_radius)
             ),
         }

@@ -16,8 +16,7 @@ from typing import Any
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Ratio
-from ballscrew.physics.friction.law_names import coefficients
-from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.model import FrictionModel, coefficients
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce, opposed_neighbours
 
 #: The numbers that a calibration sets, and where they stand in a model.

@@ -1,4 +1,10 @@
-"""The friction model: laws put together. Presets are papers."""
+"""The friction model: laws put together. Presets are papers.
+
+Names of laws, as case files and tables have them.
+
+A row here gives a law a name and no more. Whether the uncertainty band counts it as an alternative is declared beside
+the law (:mod:`ballscrew.physics.laws.traits`).
+"""
 
 from __future__ import annotations
 
@@ -12,20 +18,26 @@ from typing import Annotated, Any
 import numpy as np
 
 from ballscrew.basis.arrays import ByValue, as_array, lazy, same
-from ballscrew.basis.errors import Fault, accepts_units, faults_of, names_keywords, raise_if_any
-from ballscrew.basis.overflow import overflow_as_input_error
-from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, fields_of
+from ballscrew.basis.errors import (
+    Fault,
+    accepts_units,
+    faults_of,
+    names_keywords,
+    nearest,
+    overflow_as_input_error,
+    raise_if_any,
+)
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Quantity, Ratio, Temperature, fields_of
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Bodies, Deviations, Nut, SingleNut
 from ballscrew.physics.components.operating_state import USE_SWEEP, OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations.transmission import contact_load as equal_contact_load
 from ballscrew.physics.friction.across_groove import in_motion
-from ballscrew.physics.friction.law_names import fault_of_law
 from ballscrew.physics.friction.loaded_balls import balls_under, loads_of, row_of_balls
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import named_parts
-from ballscrew.physics.laws import film
+from ballscrew.physics.laws import ball_chain, contact, frame, friction, torque
 from ballscrew.physics.laws.ball_chain import (
     CircuitForceLaw,
     ProportionalBallForce,
@@ -35,14 +47,21 @@ from ballscrew.physics.laws.ball_chain import (
     parted_neighbours,
     two_neighbours,
 )
-from ballscrew.physics.laws.contact import ContactLaws
-from ballscrew.physics.laws.film import HamrockDowson, root_sum_square_film_parameter
+from ballscrew.physics.laws.contact import (
+    ContactLaws,
+    HamrockDowson,
+    Inlet,
+    biboulet_houpert_rolling,
+    exact_hertz,
+    houpert_hertz,
+    ideal_inlet,
+    olaru_rolling,
+    root_sum_square_film_parameter,
+    snare_resistance,
+)
 from ballscrew.physics.laws.frame import bearing_frame, helix_frame
 from ballscrew.physics.laws.friction import RunInSharing, ZhouHoeprich
-from ballscrew.physics.laws.hertz import exact_hertz, houpert_hertz
-from ballscrew.physics.laws.inlet import Inlet, ideal_inlet
 from ballscrew.physics.laws.nut_losses import ParasiticLaw
-from ballscrew.physics.laws.outside import usable
 from ballscrew.physics.laws.protocols import (
     BallChainLaw,
     BallForceLaw,
@@ -58,8 +77,8 @@ from ballscrew.physics.laws.protocols import (
     InletLaw,
     RaceTorqueLaw,
     RollingLaw,
+    usable,
 )
-from ballscrew.physics.laws.rolling import biboulet_houpert_rolling, olaru_rolling, snare_resistance
 from ballscrew.physics.laws.torque import (
     balanced_race_torques,
     printed_ideal_torque,
@@ -68,8 +87,89 @@ from ballscrew.physics.laws.torque import (
 )
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
+from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.physics.solvers.slip import Slip, SlipLaw, curvature_slip
+
+#: The laws of each slot by name: functions, and classes where a law has coefficients.
+LAWS: Mapping[str, Mapping[str, Any]] = {
+    "frame": {"bearing": frame.bearing_frame, "helix": frame.helix_frame},
+    "hertz": {
+        "houpert": contact.houpert_hertz,
+        "exact": contact.exact_hertz,
+        "brewe-hamrock": contact.brewe_hamrock_hertz,
+    },
+    "film": {
+        "hamrock-dowson": contact.HamrockDowson,
+        "hamrock-dowson-central": contact.hamrock_dowson_central,
+        "chittenden": contact.chittenden,
+    },
+    "film_parameter": {
+        "root-sum-square": contact.root_sum_square_film_parameter,
+        "literal": contact.literal_film_parameter,
+    },
+    "inlet": {"ideal": contact.ideal_inlet, "heated": contact.Inlet, "flooded": contact.flooded_inlet},
+    "friction": {
+        "zhou-hoeprich": friction.ZhouHoeprich,
+        "load-sharing": friction.LoadSharing,
+        "run-in": friction.RunInSharing,
+        "balan": friction.BalanSharing,
+        "greenwood-tripp": friction.GreenwoodTrippSharing,
+    },
+    "full_film": {
+        "none": None,
+        "arana": friction.arana_traction,
+        "eyring": friction.EyringTraction,
+        "limiting-shear": friction.LimitingShearTraction,
+    },
+    "rolling": {
+        "olaru": contact.olaru_rolling,
+        "biboulet-houpert": contact.biboulet_houpert_rolling,
+        "houpert": contact.houpert_rolling,
+        "aihara": contact.aihara_rolling,
+    },
+    "elastic_resistance": {"snare": contact.snare_resistance, "hysteresis": contact.Hysteresis},
+    "slip": {"curvature": curvature_slip, "line": line_slip, "ellipse": ellipse_slip},
+    "ball_chain": {
+        "one-neighbour": ball_chain.one_neighbour,
+        "two-neighbours": ball_chain.two_neighbours,
+        "opposed-neighbours": ball_chain.opposed_neighbours,
+        "parted-neighbours": ball_chain.parted_neighbours,
+    },
+    "ball_force": {
+        "imposed": ball_chain.imposed_ball_force,
+        "proportional": ball_chain.ProportionalBallForce,
+        "chain": ball_chain.ChainBallForce,
+    },
+    "race_torques": {"printed": torque.printed_race_torques, "balanced": torque.balanced_race_torques},
+    "ideal_torque": {"printed": torque.printed_ideal_torque, "virtual-work": torque.virtual_work_torque},
+}
+
+
+def coefficients(law: Any) -> Mapping[str, Quantity]:
+    """The coefficients of a law by name; none for a law that is a function."""
+    return fields_of(law) if dataclasses.is_dataclass(law) else {}
+
+
+def fault_of_law(slot: str, law: Any) -> Fault | None:
+    """Fault of a value given for a law in Python; None if it can be called."""
+    if callable(law) and not isinstance(law, type):
+        return None
+    where, known = f"model.{slot}", LAWS.get(slot, {})
+    if law is None and None in known.values():
+        return None
+    if isinstance(law, type):
+        return Fault(where, "must be a law", f"the class {law.__name__}", f"make one of it: {law.__name__}(…)")
+    if not isinstance(law, str):
+        return Fault(where, "must be a law", repr(law), "give a function, or a frozen dataclass with __call__")
+    named = known.get(law)
+    if named is None:
+        remedy = f"{nearest(law, known)} in a case file; in Python give the law itself"
+    else:
+        made = f"{named.__name__}()" if isinstance(named, type) else named.__name__
+        remedy = f"from {named.__module__} import {named.__name__}, and give {slot}={made}"
+    return Fault(where, "must be a law, not its name", law, remedy)
+
 
 PAPER_FRICTION = ZhouHoeprich()
 
@@ -162,7 +262,7 @@ class FrictionModel(ByValue):
             frame=bearing_frame,
             hertz=houpert_hertz,
             film=HamrockDowson(speed_exponent=0.66),
-            film_parameter=film.literal_film_parameter if literal_film_parameter else root_sum_square_film_parameter,
+            film_parameter=contact.literal_film_parameter if literal_film_parameter else root_sum_square_film_parameter,
             ball_chain=one_neighbour,
             race_torques=printed_race_torques,
             ideal_torque=printed_ideal_torque,

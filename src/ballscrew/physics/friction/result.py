@@ -25,8 +25,9 @@ from ballscrew.basis.quantities import (
 from ballscrew.basis.records import Record
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import transmission
-from ballscrew.physics.friction import directions, loaded_balls, starvation
+from ballscrew.physics.friction import directions, loaded_balls, validity
 from ballscrew.physics.friction.balls import MECHANISMS
+from ballscrew.physics.friction.directions import VendorTerms
 from ballscrew.physics.friction.loaded_balls import LoadedBalls, LoadedPair
 from ballscrew.physics.friction.validity import (
     NUT_CONDITIONS,
@@ -36,7 +37,6 @@ from ballscrew.physics.friction.validity import (
     validity_masks,
     warning_records,
 )
-from ballscrew.physics.friction.vendor_terms import VendorTerms
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.laws.frame import Frame
 from ballscrew.physics.laws.protocols import BallChain, IdealTorqueLaw
@@ -418,17 +418,17 @@ class FrictionResult(VendorTerms, Drawn):
     def may_starve(self) -> bool:
         """Oil that comes back too late may take so much of the torque that a full bath has to be asked for, too."""
         model, oil = self.parts["model"], self.parts["lubricant"]
-        left = starvation.least_replenished(model, self.ball_screw, oil, self.screw_speed)
-        return left < starvation.NEARLY_ALL
+        left = validity.least_replenished(model, self.ball_screw, oil, self.screw_speed)
+        return left < validity.NEARLY_ALL
 
     @property
     def starvation(self) -> list[Record]:
         """The torque where it is starved the most, beside that of a full bath; empty where they hardly differ."""
         if not self.may_starve:
             return []
-        result = starvation.most_starved(self.screw_torque, self.flooded_torque)
+        result = validity.most_starved(self.screw_torque, self.flooded_torque)
         quantity = quantities_of(FrictionResult)["screw_torque"]
-        return [] if result is None else starvation.records([starvation.BothTorques(quantity, *result)])
+        return [] if result is None else validity.records([validity.BothTorques(quantity, *result)])
 
     @property
     def warning_records(self) -> list[Record]:

@@ -26,7 +26,7 @@ from ballscrew.basis.quantities import Force, Info, Mask, Quantity, fields_of, q
 from ballscrew.basis.records import Judgement, Sentence, Shown, Words, at_least, is_nan
 from ballscrew.physics.components.nut import PRELOAD
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.friction import directions, starvation
+from ballscrew.physics.friction import directions, validity
 from ballscrew.physics.friction.result import QUADRANTS, FrictionResult
 from ballscrew.physics.friction.validity import IMBALANCE, VALIDITY
 from ballscrew.physics.solvers.load_distribution import BallLoads
@@ -57,7 +57,7 @@ def preload_is_lost(preload: Force, remaining_preload: Force) -> Mask:
 
 def _starved(of: Mapping[str, Any]) -> Mapping[str, Any]:
     given, flooded = of["screw_torque"], of["flooded_torque"]
-    return {"said": starvation.differs(given, flooded), "value": flooded, "limit": given}
+    return {"said": validity.differs(given, flooded), "value": flooded, "limit": given}
 
 
 def _no_load(of: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -252,7 +252,7 @@ PRELOAD_LOST = Judgement(
 #: All verdicts on an operating point, in the order in which they are said.
 VERDICTS: tuple[Judgement, ...] = (
     Judgement(
-        id=starvation.STARVED,
+        id=validity.STARVED,
         subject="screw_torque",
         formula=_starved,
         needs=("screw_torque", "flooded_torque"),
@@ -261,7 +261,7 @@ VERDICTS: tuple[Judgement, ...] = (
         unit=_FRICTION.unit,
         sentences=(
             Sentence(
-                starvation.OF_ONE_NUMBER,
+                validity.OF_ONE_NUMBER,
                 places={"given": Shown("limit", _FRICTION), "flooded": Shown("value", _FRICTION)},
             ),
         ),

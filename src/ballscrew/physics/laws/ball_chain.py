@@ -10,13 +10,7 @@ from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio
 from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import (
-    ball_chain,
-    deflection,
-    equilibrium,
-    friction,
-    kinematics,
-)
+from ballscrew.physics.equations import ball_chain, equilibrium, friction, kinematics, rigidity
 from ballscrew.physics.laws.contact import Contact
 from ballscrew.physics.laws.frame import Frame
 from ballscrew.physics.laws.protocols import BallChain
@@ -223,7 +217,7 @@ class ChainBallForce(ByValue):
         d_w, L, gamma = part.ball_diameter, frame.path_radius, frame.curvature_ratio
         balls_of_a_turn = ball_chain.balls_of_a_turn(L, d_w)
         loaded, resting = part.loaded_balls / self.circuits, self.return_turns * balls_of_a_turn
-        A = deflection.groove_centre_distance(part.screw_conformity, part.nut_conformity, d_w)
+        A = rigidity.groove_centre_distance(part.screw_conformity, part.nut_conformity, d_w)
         epsilon = ball_chain.rms_speed_deviation(gamma, part.contact_angle, self.groove_deviation, A)
         xp = namespace(epsilon)
         spread = ball_chain.natural_speed_range(xp.maximum(epsilon, SMALLEST_DEVIATION))

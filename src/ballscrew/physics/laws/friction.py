@@ -9,7 +9,7 @@ from ballscrew.basis.arrays import ByValue, namespace
 from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
 from ballscrew.physics.components.oil_grades import PARAFFINIC, LimitingShear
-from ballscrew.physics.equations import friction, mixed_lubrication, rheology, traction
+from ballscrew.physics.equations import friction, rheology
 from ballscrew.physics.laws.conditions import ContactConditions
 from ballscrew.physics.laws.traits import law_traits
 
@@ -87,9 +87,7 @@ class LoadSharing(ByValue):
 
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
-        share = mixed_lubrication.asperity_load_share_zhou_hoeprich(
-            conditions.film_parameter, self.decay, self.exponent
-        )
+        share = friction.asperity_load_share_zhou_hoeprich(conditions.film_parameter, self.decay, self.exponent)
         return _shared(self, share, conditions)
 
 
@@ -144,8 +142,8 @@ class RunInSharing(ByValue):
         # no share is left long before 1000, and without load the film parameter is infinite
         film_parameter = conditions.film_parameter
         bounded = namespace(film_parameter).minimum(film_parameter, 1000.0)
-        worn = mixed_lubrication.run_in_film_parameter(bounded, self.run_in_film_parameter, self.lost_film_parameter)
-        share = mixed_lubrication.asperity_load_share_zhou_hoeprich(worn, self.decay, self.exponent)
+        worn = friction.run_in_film_parameter(bounded, self.run_in_film_parameter, self.lost_film_parameter)
+        share = friction.asperity_load_share_zhou_hoeprich(worn, self.decay, self.exponent)
         return _shared(self, share, conditions)
 
 
@@ -165,7 +163,7 @@ class BalanSharing(ByValue):
         # no share is left beyond 2, and an infinite film, without load, would be infinity over infinity
         film_parameter = conditions.film_parameter
         bounded = namespace(film_parameter).minimum(film_parameter, 4.0)
-        share = mixed_lubrication.asperity_load_share_balan(bounded)
+        share = friction.asperity_load_share_balan(bounded)
         return _shared(self, share, conditions)
 
 
@@ -197,8 +195,8 @@ class GreenwoodTrippSharing(ByValue):
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
         pressure, most = (
-            mixed_lubrication.asperity_pressure(
-                mixed_lubrication.asperity_contact_integral(separation),
+            friction.asperity_pressure(
+                friction.asperity_contact_integral(separation),
                 conditions.equivalent_modulus,
                 self.asperity_density,
                 self.asperity_radius,
@@ -209,7 +207,7 @@ class GreenwoodTrippSharing(ByValue):
         xp = namespace(pressure, most)
         # above zero, so that no asperities against no load is none
         needed = xp.maximum(xp.minimum(conditions.mean_pressure, most), 1e-300)
-        share = mixed_lubrication.asperity_load_share_greenwood_tripp(pressure, needed)
+        share = friction.asperity_load_share_greenwood_tripp(pressure, needed)
         return _shared(self, share, conditions)
 
 
@@ -223,7 +221,7 @@ def _full_film(law: _Friction, conditions: ContactConditions) -> Ratio:
 
 
 def _shared(law: _Friction, asperity_load_share: Ratio, conditions: ContactConditions) -> Ratio:
-    return mixed_lubrication.load_sharing_friction_coefficient(
+    return friction.load_sharing_friction_coefficient(
         asperity_load_share, law.boundary_friction_coefficient, _full_film(law, conditions)
     )
 
@@ -250,11 +248,11 @@ def arana_traction(conditions: ContactConditions) -> Ratio:
     # below 1 MPa, where a difference of viscosities is lost to rounding, the coefficient is that at 1 MPa
     greatest = xp.maximum(conditions.maximum_pressure, 1e6)
     alpha = rheology.secant_pressure_viscosity_coefficient(oil.viscosity, oil.viscosity_under(greatest), greatest)
-    tau_E = traction.arana_eyring_stress(oil.limiting_shear_coefficient, alpha)
+    tau_E = friction.arana_eyring_stress(oil.limiting_shear_coefficient, alpha)
     rate = _shear_rate(conditions, conditions.inlet_film_factor * conditions.inlet_supply_factor)
-    stress = traction.eyring_shear_stress(oil.viscosity_under(safe), rate, tau_E)
-    limit = traction.limiting_shear_stress(safe, oil.limiting_shear_coefficient)
-    return xp.where(loaded & moving, traction.film_friction_coefficient(xp.minimum(stress, limit), safe), 0.0)
+    stress = friction.eyring_shear_stress(oil.viscosity_under(safe), rate, tau_E)
+    limit = friction.limiting_shear_stress(safe, oil.limiting_shear_coefficient)
+    return xp.where(loaded & moving, friction.film_friction_coefficient(xp.minimum(stress, limit), safe), 0.0)
 
 
 @law_traits(alternative=True)
@@ -277,11 +275,11 @@ class EyringTraction(ByValue):
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient of the film."""
         p_m, moving = conditions.mean_pressure, conditions.nominal_sliding_speed > 0
-        stress = traction.eyring_shear_stress(_film_viscosity(conditions), _shear_rate(conditions), self.eyring_stress)
-        limit = traction.limiting_shear_stress(p_m, self.limiting_shear_coefficient)
+        stress = friction.eyring_shear_stress(_film_viscosity(conditions), _shear_rate(conditions), self.eyring_stress)
+        limit = friction.limiting_shear_stress(p_m, self.limiting_shear_coefficient)
         xp = namespace(p_m, moving, stress, limit)
         loaded = p_m > 0
-        mu = traction.film_friction_coefficient(xp.minimum(stress, limit), xp.where(loaded, p_m, 1.0))
+        mu = friction.film_friction_coefficient(xp.minimum(stress, limit), xp.where(loaded, p_m, 1.0))
         return xp.where(loaded & moving, mu, 0.0)
 
 
@@ -301,9 +299,9 @@ class LimitingShearTraction(ByValue):
         xp = namespace(p_m)
         loaded = p_m > 0
         pressure = xp.where(loaded, p_m, 1.0)
-        limit = traction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
-        stress = traction.bair_winer_shear_stress(_film_viscosity(conditions), _shear_rate(conditions), limit)
-        mu = traction.film_friction_coefficient(stress, pressure)
+        limit = friction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
+        stress = friction.bair_winer_shear_stress(_film_viscosity(conditions), _shear_rate(conditions), limit)
+        mu = friction.film_friction_coefficient(stress, pressure)
         return namespace(loaded, mu).where(loaded, mu, 0.0)
 
 
@@ -316,4 +314,4 @@ def _shear_rate(conditions: ContactConditions, inlet_film_factor: Ratio = 1.0) -
     h, u_s = conditions.central_film_thickness * inlet_film_factor, conditions.nominal_sliding_speed
     xp = namespace(h, u_s)
     film = h > 0
-    return xp.where(film, traction.film_shear_rate(u_s, xp.where(film, h, 1.0)), xp.where(u_s > 0, 1e12, 0.0))
+    return xp.where(film, friction.film_shear_rate(u_s, xp.where(film, h, 1.0)), xp.where(u_s > 0, 1e12, 0.0))

@@ -20,7 +20,7 @@ from ballscrew.basis.errors import Fault, InputError, accepts_units, faults_of, 
 from ballscrew.basis.quantities import AngularSpeed, Count, Density, Force, Info, Length, Ratio, Speed, Torque
 from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY, Lubricant
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import ball_chain, geometry, kinematics, nut_losses, preload, transmission
+from ballscrew.physics.equations import ball_chain, geometry, kinematics, nut_losses, transmission
 from ballscrew.physics.laws.ball_chain import WALL_FACTOR
 from ballscrew.physics.laws.frame import helix_frame
 
@@ -66,8 +66,8 @@ class JISDrag(ByValue):
     ) -> Torque:
         """Drag torque, N m."""
         phi = geometry.lead_angle(lead, pitch_circle_diameter)
-        K_p = preload.preload_torque_coefficient(phi, self.drag_coefficient, self.drag_exponent)
-        return preload.preload_torque(K_p, preload_force, lead)
+        K_p = nut_losses.preload_torque_coefficient(phi, self.drag_coefficient, self.drag_exponent)
+        return nut_losses.preload_torque(K_p, preload_force, lead)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ class RexrothDrag(ByValue):
         self, preload_force: Force, nominal_diameter: Length, pitch_circle_diameter: Length, lead: Length
     ) -> Torque:
         """Drag torque, N m."""
-        return preload.diameter_drag_torque(preload_force, nominal_diameter, self.drag_coefficient)
+        return nut_losses.diameter_drag_torque(preload_force, nominal_diameter, self.drag_coefficient)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -107,8 +107,8 @@ class EfficiencyDrag(ByValue):
     ) -> Torque:
         """Drag torque, N m."""
         eta_b = transmission.back_driving_efficiency(self.efficiency)
-        K_p = preload.preload_torque_coefficient_of_halves(self.efficiency, eta_b)
-        return preload.preload_torque(K_p, preload_force, lead)
+        K_p = nut_losses.preload_torque_coefficient_of_halves(self.efficiency, eta_b)
+        return nut_losses.preload_torque(K_p, preload_force, lead)
 
 
 # -- seals ----------------------------------------------------------------------------------------

@@ -34,7 +34,7 @@ from ballscrew.basis.quantities import (
     RotationalStiffness,
     Torque,
 )
-from ballscrew.physics.equations import friction_states
+from ballscrew.physics.equations import presliding
 from ballscrew.physics.moving_balls.reversal import Loop, Reversal
 
 Vector: TypeAlias = NDArray[np.float64]
@@ -150,8 +150,8 @@ class Dahl:
     coulomb_torque: Annotated[Torque, Info("M_c", "friction torque that winds up, in steady motion", above=0)]
 
     def torque(self, screw_angle: Angle, initial_torque: Torque) -> Torque:
-        """Torque that is wound up after an angle, :func:`~ballscrew.physics.equations.friction_states.dahl_torque`."""
-        return friction_states.dahl_torque(self.presliding_stiffness, self.coulomb_torque, initial_torque, screw_angle)
+        """Torque that is wound up after an angle, :func:`~ballscrew.physics.equations.presliding.dahl_torque`."""
+        return presliding.dahl_torque(self.presliding_stiffness, self.coulomb_torque, initial_torque, screw_angle)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -174,13 +174,12 @@ class LuGre:
 
     def torque(self, screw_angle: Angle, initial_torque: Torque, screw_speed: AngularSpeed) -> Torque:
         """Torque after an angle at a steady speed,
-        :func:`~ballscrew.physics.equations.friction_states.lugre_torque`.
+        :func:`~ballscrew.physics.equations.presliding.lugre_torque`.
         """
         sigma_0, M_c = self.presliding_stiffness, self.coulomb_torque
-        wound = friction_states.dahl_torque(sigma_0, M_c, initial_torque, screw_angle)
+        wound = presliding.dahl_torque(sigma_0, M_c, initial_torque, screw_angle)
         return (
-            friction_states.lugre_torque(wound, M_c, self.micro_damping, self.viscous_slope, screw_speed)
-            + self.dry_torque
+            presliding.lugre_torque(wound, M_c, self.micro_damping, self.viscous_slope, screw_speed) + self.dry_torque
         )
 
 
@@ -285,9 +284,7 @@ def fit_lugre(
     """
     dahl = fit_dahl(curve)
     sigma_0 = dahl.model.presliding_stiffness
-    sigma_1 = (
-        0.0 if moment_of_inertia is None else friction_states.micro_damping(sigma_0, moment_of_inertia, damping_ratio)
-    )
+    sigma_1 = 0.0 if moment_of_inertia is None else presliding.micro_damping(sigma_0, moment_of_inertia, damping_ratio)
     model = LuGre(
         presliding_stiffness=sigma_0,
         coulomb_torque=dahl.model.coulomb_torque,
@@ -344,7 +341,7 @@ def gms_torque(elements: Sequence[SlipElement], screw_angles: Array, *, initial_
     ``elements`` are those of :func:`fit_slip_elements`, or of any other source; ``screw_angles`` (rad) are the places
     in their order, between which the angle does not turn back; ``initial_torques`` are those of the elements at the
     first place, zero without any: nothing is wound up. The path may have steps of any size, as each element is exact
-    (:func:`~ballscrew.physics.equations.friction_states.slip_element_torque`). Its loops close, and it has the memory
+    (:func:`~ballscrew.physics.equations.presliding.slip_element_torque`). Its loops close, and it has the memory
     of all turning points that no larger one has wiped out. What follows the direction at once comes on top.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for as many initial torques as there are no elements, or beyond
@@ -358,7 +355,7 @@ def gms_torque(elements: Sequence[SlipElement], screw_angles: Array, *, initial_
     angles = np.asarray(screw_angles, dtype=float)
     values = np.empty(angles.shape)
     for i, turned in enumerate(np.diff(angles, prepend=angles[:1])):
-        held = friction_states.slip_element_torque(k, M_s, held, turned)
+        held = presliding.slip_element_torque(k, M_s, held, turned)
         values[i] = held.sum()
     return values
 
@@ -403,7 +400,7 @@ def _fitted_dahl(curve: WindingUp, weights: Vector) -> DahlFit:
     angle, torque, M_c = np.asarray(curve.screw_angle, dtype=float), np.asarray(curve.torque), curve.coulomb_torque
 
     def squares(logarithm: float) -> float:
-        off = friction_states.dahl_torque(math.exp(logarithm), M_c, curve.initial_torque, angle) - torque
+        off = presliding.dahl_torque(math.exp(logarithm), M_c, curve.initial_torque, angle) - torque
         return float(weights @ off**2)
 
     stiffness = math.exp(_minimum(squares, math.log(0.01 * M_c / angle[-1]), math.log(100 * M_c / angle[angle > 0][0])))
@@ -426,7 +423,7 @@ def of_elements(elements: Sequence[SlipElement], curve: WindingUp) -> Vector:
     share = 0.0 if curve.from_rest else -1.0
     return np.sum(
         [
-            friction_states.slip_element_torque(one.stiffness, one.slip_torque, share * one.slip_torque, angle)
+            presliding.slip_element_torque(one.stiffness, one.slip_torque, share * one.slip_torque, angle)
             for one in elements
         ],
         axis=0,

@@ -2,7 +2,7 @@ r"""The load of a ball over its way through a nut, and the speed at which it wou
 
 The grooves of screw and nut lie off their nominal places by a few harmonics of a turn, the ends of the loaded zone are
 relieved, and the screw has turned since. At each ball the groove centres are then as far apart as
-:mod:`~ballscrew.physics.equations.deflection` says, with a distance and an angle of their own without load; the load
+:mod:`~ballscrew.physics.equations.rigidity` says, with a distance and an angle of their own without load; the load
 follows from the approach, and the natural speed from the contact angle. What the contacts do against another speed is
 asked of the slip law of the model, at a few loads.
 
@@ -25,7 +25,7 @@ from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Length, LoadD
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
-from ballscrew.physics.equations import deflection, geometry, kinematics
+from ballscrew.physics.equations import geometry, kinematics, rigidity
 from ballscrew.physics.friction.balls import ball_friction
 from ballscrew.physics.friction.four_contact_balls import four_contact_friction
 from ballscrew.physics.friction.loaded_balls import loads_of
@@ -66,19 +66,6 @@ class Groove:
         multiples = np.asarray(angle)[..., None] * np.arange(1, self.harmonics.shape[-1] + 1)
         waves = np.concatenate([np.cos(multiples), np.sin(multiples)], axis=-1)
         return np.moveaxis(waves @ self.harmonics.reshape(2, -1).T, -1, 0)
-
-    def mirrored(self, angle: Angle) -> Groove:
-        """The groove seen in a mirror across its axis: what lay at an angle lies at ``angle`` less that one."""
-        multiples = angle * np.arange(1, self.harmonics.shape[-1] + 1)
-        cosine, sine = self.harmonics[:, 0], self.harmonics[:, 1]
-        turned = np.stack(
-            [
-                cosine * np.cos(multiples) + sine * np.sin(multiples),
-                cosine * np.sin(multiples) - sine * np.cos(multiples),
-            ],
-            axis=1,
-        )
-        return Groove(turned * np.array([-1.0, 1.0])[:, None, None])
 
 
 class Creep(NamedTuple):
@@ -156,8 +143,8 @@ class LoadedZone:
     @property
     def _nominal_angle(self) -> Angle:
         A, alpha, xi = self.centre_distance, self.contact_angle, self.displacement
-        s = deflection.loaded_centre_distance(A, alpha, xi)
-        return np.arcsin(deflection.loaded_contact_sine(A, alpha, xi, s))
+        s = rigidity.loaded_centre_distance(A, alpha, xi)
+        return np.arcsin(rigidity.loaded_contact_sine(A, alpha, xi, s))
 
     def at(self, places: Field, angle: Any) -> BallsInZone:
         """The balls at some places, the last axis, when the screw has turned by an angle, one for all of them."""
@@ -195,11 +182,11 @@ class LoadedZone:
         X = self.centre_distance * np.sin(self.contact_angle) + off[0]
         R = self.centre_distance * np.cos(self.contact_angle) + off[1]
         A, alpha = np.hypot(X, R), np.arctan2(X, R)
-        s = deflection.loaded_centre_distance(A, alpha, displacement)
+        s = rigidity.loaded_centre_distance(A, alpha, displacement)
         excess = self.ball_excess + (A - self.centre_distance) - lift
-        delta = deflection.ball_approach(A, alpha, displacement, s, excess)
-        load = deflection.hertz_load(self.load_deflection, np.where(inside, np.maximum(delta, 0.0), 0.0))
-        return load, np.arcsin(deflection.loaded_contact_sine(A, alpha, displacement, s))
+        delta = rigidity.ball_approach(A, alpha, displacement, s, excess)
+        load = rigidity.hertz_load(self.load_deflection, np.where(inside, np.maximum(delta, 0.0), 0.0))
+        return load, np.arcsin(rigidity.loaded_contact_sine(A, alpha, displacement, s))
 
     def _carrying(self, off: Field, lift: Field, inside: Any) -> Field:
         """The displacement at which the balls of each moment carry the axial load; of a four-contact ball net."""
@@ -317,7 +304,7 @@ def loaded_zone(
     load, alpha = _nominal(screw, axial_load, flank)
     if not load > 0:
         raise InputError(Fault("chain.axial_load", "leaves the balls without load", f"{axial_load:g} N", "load them"))
-    A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
+    A = rigidity.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     K = pair_load_deflection(screw)
     delta = (load / K) ** (2 / 3)
     four = isinstance(nut, OversizeBallNut)

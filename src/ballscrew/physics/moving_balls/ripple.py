@@ -25,7 +25,7 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
-from ballscrew.physics.equations import nut_losses, ripple
+from ballscrew.physics.equations import ball_chain, nut_losses
 from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
@@ -161,10 +161,6 @@ class Ripple:
         """Range of the torque over its mean."""
         return self.peak_to_peak / self.mean if self.mean else math.nan
 
-    def amplitude_of(self, name: str) -> float:
-        """Amplitude of a named order, N m."""
-        return next(float(one.amplitude) for one in self.orders if one.name == name)
-
 
 @accepts_units("ripple")
 def torque_ripple(
@@ -272,15 +268,15 @@ def kinematic_orders(zone: LoadedZone, balls: Count, circuit_length: Length) -> 
     L, d_w = float(zone.path_radius), zone.ball_diameter
     advance = float(zone.natural_speed)
     gamma = 1 - 2 * advance / L  # as s_o = L (1 - γ) / 2
-    pitch = ripple.loaded_ball_pitch(zone.length, circuit_length, balls, d_w)
-    ball_pass = float(ripple.ball_pass_order(advance, pitch))
+    pitch = ball_chain.loaded_ball_pitch(zone.length, circuit_length, balls, d_w)
+    ball_pass = float(ball_chain.ball_pass_order(advance, pitch))
     return {
         "screw": 1.0,
         **{"ball pass" if m == 1 else f"ball pass {m}": m * ball_pass for m in range(1, HARMONICS + 1)},
-        "cage": float(ripple.cage_order(gamma)),
-        "screw over balls": float(ripple.over_balls_order(gamma)),
-        "ball spot": float(ripple.ball_spot_order(nut_losses.ball_turns(L, gamma, d_w))),
-        "circulation": float(ripple.circulation_order(ball_pass, balls)),
+        "cage": float(ball_chain.cage_order(gamma)),
+        "screw over balls": float(ball_chain.over_balls_order(gamma)),
+        "ball spot": float(ball_chain.ball_spot_order(nut_losses.ball_turns(L, gamma, d_w))),
+        "circulation": float(ball_chain.circulation_order(ball_pass, balls)),
     }
 
 

@@ -16,7 +16,7 @@ from ballscrew.basis.errors import Fault, InputError, faults_of, nearest, raise_
 from ballscrew.basis.quantities import Angle, Count, DiameterSpeed, Force, Info, Length, Ratio, Stiffness, Torque, Unit
 from ballscrew.physics.components.screw import RATING_CONFORMITY, BallScrew
 from ballscrew.physics.equations import geometry
-from ballscrew.physics.sizing.listed_nut import faults_of_nut, nut_of
+from ballscrew.physics.sizing.ratings import faults_of_nut, nut_of
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
 TURNS_WITHOUT_LOAD = 0.24

@@ -22,9 +22,8 @@ from ballscrew.basis.quantities import Force, Info, Length, Ratio, Stiffness
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import rigidity
-from ballscrew.physics.sizing.accuracy_factors import factor_of_make, factors_of_standard
 from ballscrew.physics.sizing.installation import Ends, Installation
-from ballscrew.physics.sizing.sources import Source
+from ballscrew.physics.sizing.makers_tables import Source, factor_of_make, factors_of_standard
 from ballscrew.physics.solvers.load_distribution import pair_load_deflection, preload_of
 
 #: Outer diameters of nuts by DIN 69051-5, m, by nominal diameter: for leads below COARSE_LEAD, and from there on.

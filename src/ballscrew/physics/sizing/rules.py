@@ -16,7 +16,7 @@ from ballscrew.basis.arrays import where
 from ballscrew.basis.errors import plain
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
 from ballscrew.basis.records import is_nan
-from ballscrew.physics.equations import geometry, preload, transmission
+from ballscrew.physics.equations import geometry, nut_losses, transmission
 from ballscrew.physics.friction.calibrations import is_of_maker
 from ballscrew.physics.laws.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
 
@@ -140,8 +140,8 @@ def hiwin(subject: Subject) -> Estimate:
     """The sum of HIWIN2017, 3.7.3: an inclined plane of ρ = 0.286°, and a drag T = (1/η − η_b) F_pr P_h / 2π."""
     phi, rho = subject.lead_angle, HIWIN_FRICTION_ANGLE
     eta = plain(transmission.classical_efficiency(phi, rho))
-    K_p = preload.preload_torque_coefficient_of_halves(eta, transmission.classical_back_driving_efficiency(phi, rho))
-    drag = where(subject.preload != 0, preload.preload_torque(K_p, subject.preload, subject.lead), math.nan)
+    K_p = nut_losses.preload_torque_coefficient_of_halves(eta, transmission.classical_back_driving_efficiency(phi, rho))
+    drag = where(subject.preload != 0, nut_losses.preload_torque(K_p, subject.preload, subject.lead), math.nan)
     return _of_efficiency(subject, eta, plain(drag))
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.physics.equations import deflection
+from ballscrew.physics.equations import rigidity
 
 Field = NDArray[np.float64]
 
@@ -90,13 +90,13 @@ class BallSprings(NamedTuple):
             sine, turning = np.sin(alpha), 0.0
             approach = xi * sine + flanks.excess
         else:
-            s = deflection.loaded_centre_distance(A, alpha, xi)
-            sine = deflection.loaded_contact_sine(A, alpha, xi, s)
-            approach = deflection.ball_approach(A, alpha, xi, s, flanks.excess)
+            s = rigidity.loaded_centre_distance(A, alpha, xi)
+            sine = rigidity.loaded_contact_sine(A, alpha, xi, s)
+            approach = rigidity.ball_approach(A, alpha, xi, s, flanks.excess)
             turning = (1 - sine**2) / s
         # a flank ends in the radial plane: beyond it there is none to touch
         delta = np.where(sine > 0, np.maximum(approach, 0.0), 0.0)
-        load = deflection.hertz_load(self.load_deflection, delta)
+        load = rigidity.hertz_load(self.load_deflection, delta)
         slope = (1.5 * self.load_deflection * np.sqrt(delta) * sine**2 + load * turning) * c_phi**2
         return FlankLoads(load, sine, flanks.facing * load * sine * c_phi, slope)
 
@@ -119,7 +119,7 @@ class BallSprings(NamedTuple):
                 turning = 0 * delta
             else:
                 xi = flanks.facing * displacement * c_phi + flanks.offset
-                turning = there.load / deflection.loaded_centre_distance(A, alpha, xi)
+                turning = there.load / rigidity.loaded_centre_distance(A, alpha, xi)
             parts = (
                 there.load * cosine,
                 -(stiffness * cosine**2 + turning * sine**2),
@@ -144,7 +144,7 @@ class BallSprings(NamedTuple):
                 approach = (xi * (2 * along + xi) - gap * (2 * across - gap)) / (s + A) + flanks.excess
                 per_distance = 1 / s
             delta = np.where(sine > 0, np.maximum(approach, 0.0), 0.0)
-            load = deflection.hertz_load(self.load_deflection, delta)
+            load = rigidity.hertz_load(self.load_deflection, delta)
             stiffness, turning = 1.5 * self.load_deflection * np.sqrt(delta), load * per_distance
             parts = PushedApart(
                 flanks.facing * c_phi * load * sine,

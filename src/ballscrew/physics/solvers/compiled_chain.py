@@ -14,10 +14,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.chain import Balanced, Chains, Rings, balanced_chains, chain_kernel
 from ballscrew.compiler.kernels.emission import kernel_text, lanes_for
-from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.kernel import Kernel, aligned_array
 from ballscrew.compiler.tracing.grid import verbatim_program
 from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.physics.solvers.ball_springs import (

@@ -5,7 +5,7 @@ the spin and the lateral slip that screw and nut force on them. With friction co
 pressure given, the power lost in slip is a convex function of the four, and its slopes are the
 forces: the balance of the ball is the minimum. So far this is exact, and
 :mod:`oracles.contact_integral` minimises it on a fine grid. Here the ellipse is
-cut into strips (:mod:`ballscrew.physics.solvers.strips`), each with its root-mean-square slip
+cut into strips (:mod:`ballscrew.physics.solvers.slip`), each with its root-mean-square slip
 (:func:`~ballscrew.physics.equations.slip.cell_slip_speed`), which keeps the function smooth and convex, and
 the minimum is found by a fixed number of damped Newton steps from the closed form of
 :mod:`~ballscrew.physics.solvers.line_slip`, on whole arrays.
@@ -29,14 +29,19 @@ from ballscrew.physics.laws.contact import Contact
 from ballscrew.physics.laws.traits import law_traits
 from ballscrew.physics.solvers.line_slip import creep_of_lines, pure_rolling_lines
 from ballscrew.physics.solvers.slip import (
+    SMALLEST_SLIP,
     BallProblem,
     ContactSlip,
+    Forces,
+    Side,
     Slip,
     carried_share,
     contact_rotation,
+    forces_of,
+    shapes_of,
     sliding_forces,
+    slip_power,
 )
-from ballscrew.physics.solvers.strips import SMALLEST_SLIP, Forces, Side, forces_of, shapes_of, slip_power
 
 #: Share of Newton's second term at each evaluation of the forces; the rest is Weiszfeld's, which
 #: cannot overshoot. A fixed number, so that neighbours in an array change nothing.

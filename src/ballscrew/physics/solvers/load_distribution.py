@@ -36,7 +36,7 @@ from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_a
 from ballscrew.basis.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
 from ballscrew.physics.components.nut import Bodies, Deviations, Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew, Raceway
-from ballscrew.physics.equations import deflection, geometry, hertz, rigidity
+from ballscrew.physics.equations import geometry, hertz, rigidity
 from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers.ball_springs import Field
 from ballscrew.physics.solvers.compiled_chain import FEWEST_POINTS
@@ -204,7 +204,7 @@ def _rigid_nut(screw: BallScrew, nut: Nut, axial_load: Force) -> RigidNut:
         preload=as_array(preload_of_rigid_bodies(screw, nut)),
         contact_angle=screw.contact_angle,
         lead_cosine=namespace(screw.lead_angle).cos(screw.lead_angle),
-        centre_distance=deflection.groove_centre_distance(
+        centre_distance=rigidity.groove_centre_distance(
             screw.screw_conformity, screw.nut_conformity, screw.ball_diameter
         ),
         load_deflection=pair_load_deflection(screw),
@@ -406,7 +406,7 @@ def pair_load_deflection(screw: BallScrew) -> LoadDeflection:
         _load_deflection(screw, raceway, R_x)
         for raceway, R_x in zip((screw.screw_raceway, screw.nut_raceway), radii, strict=True)
     )
-    return deflection.series_load_deflection(on_screw, on_nut)
+    return rigidity.series_load_deflection(on_screw, on_nut)
 
 
 def _load_deflection(screw: BallScrew, raceway: Raceway, rolling_radius: Length) -> LoadDeflection:
@@ -414,7 +414,7 @@ def _load_deflection(screw: BallScrew, raceway: Raceway, rolling_radius: Length)
     kappa = hertz.ellipticity(k)
     integrals = hertz.elliptic_integrals(kappa)
     coefficient = hertz.approach_coefficient(k, kappa, integrals.K, integrals.E)
-    return deflection.contact_load_deflection(coefficient, screw.equivalent_modulus(raceway), rolling_radius)
+    return rigidity.contact_load_deflection(coefficient, screw.equivalent_modulus(raceway), rolling_radius)
 
 
 def body_stiffness(screw: BallScrew, bodies: Bodies | None) -> tuple[Any, Any, Any]:
@@ -475,7 +475,7 @@ def elastic_nut_numbers(screw: BallScrew, nut: Nut, bodies: Bodies) -> ElasticNu
     link = 1 / (1 / screw_bar + 1 / nut_bar)
     return ElasticNutNumbers(
         load_deflection=pair_load_deflection(screw),
-        centre_distance=deflection.groove_centre_distance(
+        centre_distance=rigidity.groove_centre_distance(
             screw.screw_conformity, screw.nut_conformity, screw.ball_diameter
         ),
         contact_angle=screw.contact_angle,

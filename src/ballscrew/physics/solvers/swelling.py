@@ -46,7 +46,7 @@ def ball_of_rating(
     :math:`\pi d_m/(d_w \cos\varphi) - 1/2` balls are counted, the mean of the whole numbers of balls that find room:
     with whole ones the rating would fall where one fewer finds room. Searched are :data:`SEARCHED`.
     Found by bisection, as the rating then grows with the ball, by about its power of 1.3. The formulas are those of
-    :mod:`ballscrew.physics.equations.rating`, as recalled, corroborated for balls of 3 mm to 10 mm.
+    :mod:`ballscrew.physics.equations.life`, as recalled, corroborated for balls of 3 mm to 10 mm.
     """
     phi = geometry.lead_angle(lead, ball_circle)
 

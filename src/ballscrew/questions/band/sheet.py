@@ -6,7 +6,6 @@ import dataclasses
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import (
     Axis,
     Band,
@@ -30,6 +29,7 @@ from ballscrew.basis.output.sheet import (
     warning_lines,
     words,
 )
+from ballscrew.basis.output.text import plain
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions

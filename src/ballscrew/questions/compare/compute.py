@@ -8,17 +8,17 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, TypeVar
 
 from ballscrew.basis import units
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import overflow_as_input_error
 from ballscrew.basis.quantities import Info, Ratio, Torque, Unit, quantities_of
 from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.inputs import inputs, of_case
-from ballscrew.cases.case_files.makers_rules import subject_of
+from ballscrew.cases.case_files.descriptions import inputs, of_case
+from ballscrew.cases.case_files.named_calibration import subject_of
 from ballscrew.cases.schema.case_schema import MODELS, coefficients_of, name_of_law
 from ballscrew.engine.evaluation.comparison import Candidate, ComparedRule, Comparison, OfBalls, Row, compare, same_law
 from ballscrew.engine.evaluation.comparison import Spread as TwoRows
-from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.model import LAWS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.laws.traits import traits_of

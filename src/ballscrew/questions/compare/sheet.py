@@ -27,11 +27,11 @@ from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.spelling import THOUSANDS
+from ballscrew.cases.case_files.case_text import THOUSANDS
 from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.engine.evaluation.comparison import Comparison, Row
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.model import LAWS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.questions.compare.compute import models_without_nut, percent, verdicts, warnings

@@ -15,15 +15,14 @@ from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
+from ballscrew.engine.uncertainty.uncertain_value import default_distributions
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
-from ballscrew.evidence.calibration.constant_torque import constant_torque_missed
+from ballscrew.evidence.calibration.diagnostics import shown_with_interval
+from ballscrew.evidence.calibration.fit import constant_torque_missed
 from ballscrew.evidence.calibration.fit import fit as fitted
 from ballscrew.evidence.calibration.next_test import NextTest
-from ballscrew.evidence.calibration.oil_temperature import uses_temperatures
-from ballscrew.evidence.calibration.plausibility import shown_with_interval
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
-from ballscrew.evidence.calibration.response import resolve_input
+from ballscrew.evidence.calibration.response import resolve_input, uses_temperatures
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.fit.options import DEFAULT_FREE, FitOptions

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
+from ballscrew.axis.duty_cycle.duty import to_and_fro
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.thermal.friction_map import COLDEST, HOTTEST, FrictionMap
 from ballscrew.axis.thermal.network import network_of, steady

@@ -11,7 +11,7 @@ from typing import Any
 from pydantic import Field
 
 from ballscrew.basis import units
-from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.output.text import wrapped
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import TARGETS, Export, Option, WorstError, options_of
 from ballscrew.questions.shared.answer_parts import Closed, Tables

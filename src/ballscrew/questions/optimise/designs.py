@@ -12,10 +12,15 @@ from numpy.typing import NDArray
 
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
-from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME, loads_at_point
-from ballscrew.physics.sizing.checks import values_of_installation, values_of_limits
-from ballscrew.physics.sizing.dn_limits import GENERAL
+from ballscrew.physics.sizing.checks import (
+    CHECKS,
+    RUNNING_TIME,
+    loads_at_point,
+    values_of_installation,
+    values_of_limits,
+)
 from ballscrew.physics.sizing.installation import Installation, Limits
+from ballscrew.physics.sizing.makers_tables import GENERAL
 from ballscrew.physics.sizing.ratings import RatedGeometry, ratings_of
 
 Numbers = NDArray[np.float64]

@@ -13,18 +13,17 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import InputError
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import InputError, overflow_as_input_error
 from ballscrew.basis.quantities import Info, Quantity, Ratio, Unit, quantities_of
 from ballscrew.basis.records import Judgement, Record, said
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.makers_rules import BY_RULE, OfRule, by_rules
+from ballscrew.cases.case_files.named_calibration import BY_RULE, OfRule, by_rules
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction import validity
+from ballscrew.physics.friction.ball_section import most_loaded_ball, touched
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
-from ballscrew.physics.friction.touching import most_loaded_ball, touched
 from ballscrew.physics.friction.verdicts import (
     PRELOAD_ABOVE_RATING,
     PRELOAD_LOST,
@@ -216,7 +215,7 @@ class Run:
     def is_starved(self) -> bool:
         """Its torque, or that of its nut without load, is another one in a full bath of oil."""
         nut = self.nut
-        is_idle_starved = nut is not None and bool(starvation.differs(nut.preload_drag, nut.flooded_drag))
+        is_idle_starved = nut is not None and bool(validity.differs(nut.preload_drag, nut.flooded_drag))
         return bool(self.friction.starvation) or is_idle_starved
 
     @property
@@ -280,7 +279,7 @@ class Run:
     @property
     def conditions(self) -> list[Record]:
         """The warnings of the friction but starvation, which is a verdict, those of the case, and a heavy preload."""
-        values = [record for record in self.friction.warning_records if record.id != starvation.STARVED]
+        values = [record for record in self.friction.warning_records if record.id != validity.STARVED]
         return [*values, *self.case.doubts, *self._heavy_preload()]
 
 

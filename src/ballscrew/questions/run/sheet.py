@@ -23,12 +23,12 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.makers_rules import BY_RULE
+from ballscrew.cases.case_files.named_calibration import BY_RULE
 from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, kind_of
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.physics.friction.starvation import FULL_BATH
+from ballscrew.physics.friction.validity import FULL_BATH
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRigidity
 from ballscrew.physics.sizing.rules import RULES

@@ -10,9 +10,9 @@ from typing import Annotated, Any, Literal, NamedTuple
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Force, Info, Length, Ratio, Torque, fields_of, quantities_of
 from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import inputs
+from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
-from ballscrew.physics.friction.starvation import STARVED
+from ballscrew.physics.friction.validity import STARVED
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import failing, judged, verdict_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
@@ -225,7 +225,7 @@ def document(selection: Selection, listed: Sequence[Ranked] | None = None) -> di
             **declared.units_of(OneCandidate),
             **(declared.units_of(OfMotion) if moves else {}),
         },
-        "provenance": inputs.of_case(selection.ranked[0].candidate.case) if selection.ranked else None,
+        "provenance": descriptions.of_case(selection.ranked[0].candidate.case) if selection.ranked else None,
     }
 
 

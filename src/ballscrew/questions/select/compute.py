@@ -17,7 +17,7 @@ from ballscrew.basis.quantities import Duration
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel
-from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.questions.duty import compute
 from ballscrew.questions.select.candidates import (
     LENGTH_OF_STROKE,

@@ -13,9 +13,9 @@ from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.evidence.service.alternatives import Alternative
+from ballscrew.evidence.service.diagnostics import PreloadEstimate
 from ballscrew.evidence.service.posterior import PRELOAD
 from ballscrew.evidence.service.preload_change import VERDICTS, PreloadChange
-from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
 from ballscrew.questions.shared.declared import LEFT_OUT, from_attributes

@@ -18,8 +18,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.output.markup import escaped
 from ballscrew.basis.output.sheet import Colour
+from ballscrew.basis.output.text import escaped
 
 if TYPE_CHECKING:  # matplotlib is slow to import: only where a picture is drawn
     from matplotlib.axes import Axes

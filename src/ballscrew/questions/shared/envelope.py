@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ballscrew.basis.records import Record, documents
-from ballscrew.cases.case_files import inputs
+from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.shared import declared
 
@@ -30,14 +30,14 @@ def envelope(
     else it rests on.
     """
     return {
-        "inputs": inputs.inputs(case),
+        "inputs": descriptions.inputs(case),
         **numbers(**{named: results}, **(beside or {})),
         **({} if units is None else {"units": dict(units)}),
         **({} if assumed is None else {"assumed": list(assumed)}),
         "warnings": documents(warnings),
         "verdicts": documents(verdicts),
         "checks": list(checks),
-        "provenance": {**inputs.of_case(case), **(sources or {})},
+        "provenance": {**descriptions.of_case(case), **(sources or {})},
     }
 
 

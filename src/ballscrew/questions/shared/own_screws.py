@@ -10,7 +10,7 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.listed_nut import NUTS, lists_preload
+from ballscrew.physics.sizing.ratings import NUTS, lists_preload
 
 #: What a row says of the screw; the rest, as roughness and materials, is that of the case.
 _OF_ROW = frozenset(

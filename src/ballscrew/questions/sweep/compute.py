@@ -17,13 +17,11 @@ import xarray as xr
 
 from ballscrew.basis import units
 from ballscrew.basis.atomic_files import check_writable
-from ballscrew.basis.errors import Fault, InputError, either, fault_of, nearest, raise_if_any
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import Fault, InputError, either, fault_of, nearest, overflow_as_input_error, raise_if_any
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.case_schema import name_of_law
-from ballscrew.engine.evaluation.engines import FEW_POINTS
 from ballscrew.engine.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
@@ -34,13 +32,13 @@ from ballscrew.engine.evaluation.outputs import (
 )
 from ballscrew.engine.evaluation.plan import STARVED, Configuration, starvation_of
 from ballscrew.engine.evaluation.plan import Plan as Swept
+from ballscrew.engine.evaluation.recordings import FEW_POINTS
 from ballscrew.engine.sweeps import sweep as sweeps
-from ballscrew.engine.sweeps.cluster import cluster_client
-from ballscrew.engine.sweeps.stream import stream
+from ballscrew.engine.sweeps.cluster import cluster_client, stream
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.engine.uncertainty.bands import ENDS
 from ballscrew.physics.components.oil_grades import TEMPERATURE, nominal_oil
-from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.model import coefficients
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
 from ballscrew.physics.laws.traits import traits_of
 

@@ -12,7 +12,7 @@ from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case, Origins
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
+from ballscrew.engine.uncertainty.band_evaluation import PointGroup, bands_of
 from ballscrew.evidence.validation.entries import Entry, OperatingPoint
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew

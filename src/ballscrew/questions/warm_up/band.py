@@ -12,14 +12,12 @@ from ballscrew.axis.thermal.warm_up_band import (
     uncertain_surroundings,
     warm_up_band,
 )
-from ballscrew.basis.errors import InputError
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import InputError, overflow_as_input_error
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain
-from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
-from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
+from ballscrew.engine.uncertainty.uncertain_value import default_uncertainties, describe_distribution
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.shared.option_values import faults_named
 from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, duty_of, length_of

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ballscrew.basis.records import documents
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.questions.shared import declared
 
 if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for

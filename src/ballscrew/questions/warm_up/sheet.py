@@ -30,7 +30,7 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.quantities import Array, Info, Quantity
 from ballscrew.cases.case_files import descriptions
-from ballscrew.physics.friction.starvation import FULL_BATH
+from ballscrew.physics.friction.validity import FULL_BATH
 from ballscrew.questions.duty.compute import NUMBERS
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
 from ballscrew.questions.warm_up.verdicts import band_records, verdicts, warnings

@@ -1,17 +1,88 @@
-"""Limits of the DN value by make and by how the balls return, as makers print them (``data/speed_limits.toml``)."""
+"""Tables by make, with the kinds of their sources: read, recalled or estimated, and the words for these in a verdict.
+
+Factors for accuracy of the rigidity of a nut; and limits of the DN value by how the balls return, as makers print them
+(``data/speed_limits.toml``).
+"""
 
 from __future__ import annotations
 
 import functools
 import math
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import resources
-from typing import NamedTuple
+from typing import Any, Literal, NamedTuple
 
-from ballscrew.basis.quantities import DiameterSpeed
+from ballscrew.basis import units
+from ballscrew.basis.quantities import DiameterSpeed, Ratio
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.sources import Source
+
+#: "read" in its source, or derived; "recalled", as its source was not read; "estimate", where no source has it.
+Source = Literal["read", "recalled", "estimate"]
+
+#: What stands beside a verdict; nothing where the source was read.
+QUALIFICATIONS: Mapping[Source, str | None] = {
+    "read": None,
+    "recalled": "by formulas as recalled",
+    "estimate": "by an estimate",
+}
+
+
+class FactorsOfStandard(NamedTuple):
+    """The factors that ISO 3408-4 has by grade: greatest and least."""
+
+    greatest: Ratio
+    least: Ratio
+    source: Source
+    #: The key in the bibliography.
+    reference: str
+
+
+class FactorOfMake(NamedTuple):
+    """The factor of the rigidities that a maker prints for double nuts."""
+
+    make: str
+    value: Ratio
+    source: Source
+    #: The key in the bibliography.
+    reference: str
+
+    @property
+    def words(self) -> str:
+        """Whose factor it is, with the kind of its source where it was not read."""
+        said = (
+            f"factor for accuracy {units.number(self.value, 3)}, of {self.make}'s printed rigidities of double "
+            f"nuts ({self.reference})"
+        )
+        qualified = QUALIFICATIONS[self.source]
+        if qualified is not None:
+            said = f"{said}: {qualified}"
+        return said
+
+
+def factors_of_standard() -> FactorsOfStandard:
+    """The factors by grade."""
+    table = _tables()["standard"]
+    return FactorsOfStandard(table["greatest"], table["least"], table["kind"], table["source"])
+
+
+def factors_of_makes() -> tuple[FactorOfMake, ...]:
+    """The factors of all makes that are known."""
+    return tuple(
+        FactorOfMake(table["make"], table["value"], table["kind"], table["source"]) for table in _tables()["factor"]
+    )
+
+
+def factor_of_make(make: str) -> FactorOfMake | None:
+    """The factor of a make; None where it is not known."""
+    return next((one for one in factors_of_makes() if one.make.casefold() == make.casefold()), None)
+
+
+@functools.cache
+def _tables() -> dict[str, Any]:
+    text = resources.files("ballscrew").joinpath("data/accuracy_factors.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)
+
 
 #: One millimetre times one turn a minute, in m rad/s.
 MM_RPM = 1e-3 * math.tau / 60
