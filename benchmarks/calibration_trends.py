@@ -22,7 +22,6 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.ball_chain import ChainBallForce, ProportionalBallForce, imposed_ball_force, two_neighbours
 from ballscrew.physics.laws.conditions import ContactConditions
-from ballscrew.physics.laws.contact import Inlet, flooded_inlet
 from ballscrew.physics.laws.friction import (
     BalanSharing,
     GreenwoodTrippSharing,
@@ -30,6 +29,7 @@ from ballscrew.physics.laws.friction import (
     RunInSharing,
     arana_traction,
 )
+from ballscrew.physics.laws.inlet import Inlet, flooded_inlet
 from ballscrew.physics.laws.nut_losses import ReturnBraking, ShearedOil, SpinUp
 from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute

@@ -20,8 +20,9 @@ from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce
-from ballscrew.physics.laws.contact import Inlet, houpert_rolling
 from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
+from ballscrew.physics.laws.inlet import Inlet
+from ballscrew.physics.laws.rolling import houpert_rolling
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.slip import BallProblem, Slip

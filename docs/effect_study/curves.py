@@ -14,9 +14,9 @@ from ballscrew.physics.equations import friction, slip
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import SMALLEST_ELASTIC_REGIME_PARAMETER
-from ballscrew.physics.laws.contact import aihara_rolling, biboulet_houpert_rolling, houpert_rolling, olaru_rolling
 from ballscrew.physics.laws.friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
 from ballscrew.physics.laws.protocols import RollingLaw
+from ballscrew.physics.laws.rolling import aihara_rolling, biboulet_houpert_rolling, houpert_rolling, olaru_rolling
 from ballscrew.physics.solvers.line_slip import pure_rolling_lines
 from effect_study.cases import DECAYS, PAPER, RPM, Case
 

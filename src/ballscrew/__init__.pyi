@@ -68,7 +68,7 @@ from ballscrew.physics.friction.breakaway import breakaway as breakaway
 from ballscrew.physics.friction.model import FrictionModel as FrictionModel
 from ballscrew.physics.friction.model import nut_friction as nut_friction
 from ballscrew.physics.friction.result import FrictionResult as FrictionResult
-from ballscrew.physics.laws.contact import HamrockDowson as HamrockDowson
+from ballscrew.physics.laws.film import HamrockDowson as HamrockDowson
 from ballscrew.physics.laws.friction import ZhouHoeprich as ZhouHoeprich
 from ballscrew.physics.laws.nut_losses import Seals as Seals
 from ballscrew.physics.moving_balls.chain import MovingChain as MovingChain

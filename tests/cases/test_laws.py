@@ -16,7 +16,7 @@ from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
 from ballscrew.physics.friction.model import LAWS, presets
-from ballscrew.physics.laws import ball_chain, contact, friction
+from ballscrew.physics.laws import ball_chain, friction, rolling
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.slip import curvature_slip
 
@@ -118,7 +118,7 @@ def test_all_in_one(tables):
     )
     assert model.inlet.inlet_film_ratio == 3
     assert isinstance(model.full_film, friction.EyringTraction)
-    assert model.rolling is contact.houpert_rolling
+    assert model.rolling is rolling.houpert_rolling
     assert model.elastic_resistance.loss_factor == 0.01
     assert isinstance(model.ball_force, ball_chain.ProportionalBallForce)
     assert model.slip is curvature_slip

@@ -20,7 +20,7 @@ from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.friction.validity import implausible, named_parts
-from ballscrew.physics.laws.contact import Hysteresis
+from ballscrew.physics.laws.rolling import Hysteresis
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.validate import compute
 

@@ -13,7 +13,7 @@ from ballscrew.basis.output.sheet import Columns, Number, Table, words
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks, terminal
-from ballscrew.physics.laws.contact import Inlet
+from ballscrew.physics.laws.inlet import Inlet
 from ballscrew.questions.band import compute
 from ballscrew.questions.band.answer import verdicts
 from ballscrew.questions.band.options import BandOptions

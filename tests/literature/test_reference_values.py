@@ -12,8 +12,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.physics.equations import friction, geometry, hertz, kinematics, rheology, slip, transmission
-from ballscrew.physics.laws.contact import exact_hertz
 from ballscrew.physics.laws.frame import helix_frame
+from ballscrew.physics.laws.hertz import exact_hertz
 from ballscrew.physics.laws.nut_losses import JISDrag
 
 DATA = Path(__file__).parents[1] / "data"

@@ -7,7 +7,7 @@ import pytest
 
 from ballscrew.evidence.validation.rows import GROOVE_RADIUS, RING_RADIUS, ring_torque
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.laws.contact import biboulet_houpert_rolling
+from ballscrew.physics.laws.rolling import biboulet_houpert_rolling
 
 RING = json.loads((Path(__file__).parents[1] / "data" / "contact_points.json").read_text(encoding="utf-8"))[
     "thrust_ring"

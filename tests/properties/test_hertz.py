@@ -6,8 +6,8 @@ import numpy as np
 from hypothesis import given
 
 from ballscrew.physics.equations import geometry, hertz
-from ballscrew.physics.laws.contact import exact_hertz
 from ballscrew.physics.laws.frame import bearing_frame, helix_frame
+from ballscrew.physics.laws.hertz import exact_hertz
 from support.strategies import both_models, cases, close, floats, powers, screws
 
 ratios = powers(1e-3, 1e3)

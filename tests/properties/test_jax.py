@@ -17,7 +17,7 @@ from ballscrew.engine.evaluation import derivatives
 from ballscrew.engine.evaluation.derivatives import jax_value_and_partials
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.physics.laws import ball_chain, contact, friction
+from ballscrew.physics.laws import ball_chain, film, friction, hertz, inlet, rolling
 from ballscrew.physics.solvers.line_slip import line_slip
 
 pytestmark = pytest.mark.slow
@@ -34,26 +34,26 @@ OTHERS = {
         reference,
         slip=line_slip,
         friction=friction.GreenwoodTrippSharing(),
-        rolling=contact.aihara_rolling,
+        rolling=rolling.aihara_rolling,
         ball_force=ball_chain.ProportionalBallForce(),
     ),
     "Arana": dataclasses.replace(
         reference,
         full_film=friction.arana_traction,
-        inlet=contact.flooded_inlet,
+        inlet=inlet.flooded_inlet,
         ball_force=ball_chain.ChainBallForce(gap=0.03),
     ),
     "Eyring": dataclasses.replace(
         corrected,
         full_film=friction.EyringTraction(),
-        elastic_resistance=contact.Hysteresis(),
-        rolling=contact.houpert_rolling,
+        elastic_resistance=rolling.Hysteresis(),
+        rolling=rolling.houpert_rolling,
     ),
     "limiting shear": dataclasses.replace(
         corrected,
         full_film=friction.LimitingShearTraction(),
-        hertz=contact.brewe_hamrock_hertz,
-        film=contact.hamrock_dowson_central,
+        hertz=hertz.brewe_hamrock_hertz,
+        film=film.hamrock_dowson_central,
         friction=friction.BalanSharing(),
     ),
 }

@@ -9,7 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.friction.model import LAWS
-from ballscrew.physics.laws import ball_chain, contact, friction
+from ballscrew.physics.laws import ball_chain, friction, inlet, rolling
 from ballscrew.physics.laws.conditions import Motion
 from ballscrew.physics.laws.contact import ContactLaws, rolling_contact
 from ballscrew.physics.solvers.line_slip import line_slip
@@ -113,13 +113,13 @@ SPEEDS = np.array([0.0, 1e-6, 1e-3, 1.0, 30.0, 300.0, 1000.0, 5000.0])
 
 
 def test_the_inlet_is_cool_at_rest_and_heats_with_speed():
-    warm = contact.Inlet()(contact_at(100.0, SPEEDS))
+    warm = inlet.Inlet()(contact_at(100.0, SPEEDS))
     assert warm.film[0] == 1
     assert np.all(np.diff(warm.film) < 0)
     assert np.all((warm.film > 0) & (warm.film <= 1))
     assert warm.film[1] == pytest.approx(1, abs=1e-3)
     # flooded: the rolling force falls as the film does
-    flooded = contact.Inlet(replenishment_constant=0.0)(contact_at(100.0, SPEEDS))
+    flooded = inlet.Inlet(replenishment_constant=0.0)(contact_at(100.0, SPEEDS))
     assert flooded.rolling == pytest.approx(flooded.film, rel=1e-4)
     # oil that comes back too late lowers it further, the more the faster
     replenished = warm.rolling / flooded.rolling
@@ -129,14 +129,14 @@ def test_the_inlet_is_cool_at_rest_and_heats_with_speed():
 
 def test_a_thick_oil_heats_more_and_a_conductive_one_less():
     film = [
-        contact.Inlet()(contact_at(100.0, 600.0, dataclasses.replace(OIL, **changed))).film
+        inlet.Inlet()(contact_at(100.0, 600.0, dataclasses.replace(OIL, **changed))).film
         for changed in ({}, {"viscosity": 2 * OIL.viscosity}, {"thermal_conductivity": 2 * OIL.thermal_conductivity})
     ]
     assert film[1] < film[0] < film[2]
 
 
 def test_a_starved_inlet_rolls_more_easily():
-    factors = [contact.Inlet(S, replenishment_constant=0.0)(contact_at(100.0, 600.0)) for S in (2.0, 10.0, 100.0, 1e6)]
+    factors = [inlet.Inlet(S, replenishment_constant=0.0)(contact_at(100.0, 600.0)) for S in (2.0, 10.0, 100.0, 1e6)]
     assert np.all(np.diff([f.rolling for f in factors]) > 0)
     assert len({float(f.film) for f in factors}) == 1
     assert factors[-1].rolling == pytest.approx(factors[-1].film, rel=1e-4)
@@ -227,10 +227,10 @@ def test_friction_of_the_film_is_finite_anywhere(name):
 # -- rolling ---------------------------------------------------------------------------------------
 
 ROLLING = {
-    "olaru": contact.olaru_rolling,
-    "biboulet and houpert": contact.biboulet_houpert_rolling,
-    "houpert": contact.houpert_rolling,
-    "aihara": contact.aihara_rolling,
+    "olaru": rolling.olaru_rolling,
+    "biboulet and houpert": rolling.biboulet_houpert_rolling,
+    "houpert": rolling.houpert_rolling,
+    "aihara": rolling.aihara_rolling,
 }
 
 
@@ -256,10 +256,10 @@ def test_rolling_laws_agree_in_size():
 
 def test_hysteresis_is_in_proportion_to_its_loss():
     conditions = contact_at(100.0, 600.0)
-    once, twice = (contact.Hysteresis(loss)(conditions) for loss in (0.02, 0.04))
+    once, twice = (rolling.Hysteresis(loss)(conditions) for loss in (0.02, 0.04))
     assert twice == 2 * once == pytest.approx(3 / 16 * 0.04 * 100 * conditions.semi_minor_axis, rel=1e-12)
     # the paper's fit for steel corresponds to a loss of 0.02 to 0.04
-    model = dataclasses.replace(reference, elastic_resistance=contact.Hysteresis(0.03))
+    model = dataclasses.replace(reference, elastic_resistance=rolling.Hysteresis(0.03))
     found, fit = (
         some(SCREW, OIL, axial_load=4000.0, screw_speed=60.0).contributions["elastic_hysteresis"]
         for some in (model, reference)
@@ -285,9 +285,9 @@ def test_force_between_balls_may_grow_with_the_load():
 @pytest.mark.parametrize(
     ("law", "coefficient", "value", "where"),
     [
-        (contact.Hysteresis, "loss_factor", -0.1, "model.elastic_resistance"),
+        (rolling.Hysteresis, "loss_factor", -0.1, "model.elastic_resistance"),
         (ball_chain.ProportionalBallForce, "share_of_load", -0.1, "model.ball_force"),
-        (contact.Inlet, "inlet_film_ratio", 0.0, "model.inlet"),
+        (inlet.Inlet, "inlet_film_ratio", 0.0, "model.inlet"),
         (friction.LoadSharing, "boundary_friction_coefficient", -0.1, "model.friction"),
         (friction.BalanSharing, "full_film_friction_coefficient", math.nan, "model.friction"),
         (friction.GreenwoodTrippSharing, "asperity_radius", 0.0, "model.friction"),

@@ -10,8 +10,8 @@ import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.components.operating_state import NOTHING
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.laws.contact import Inlet, ideal_inlet
 from ballscrew.physics.laws.frame import bearing_frame
+from ballscrew.physics.laws.inlet import Inlet, ideal_inlet
 from support.strategies import RPM, Case, box, constant_friction, reference, torque_scale, with_ball_force
 
 SIZE = 4000

@@ -13,8 +13,8 @@ from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.evidence.papers.olaru2005 import SCREW
 from ballscrew.physics.equations.rolling import elastic_resistance_moment
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.laws.contact import Inlet
 from ballscrew.physics.laws.frame import bearing_frame
+from ballscrew.physics.laws.inlet import Inlet
 from support.strategies import (
     RPM,
     all_models,

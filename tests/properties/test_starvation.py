@@ -15,7 +15,7 @@ from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.laws.contact import Inlet
+from ballscrew.physics.laws.inlet import Inlet
 
 MODEL = FrictionModel.reference()
 SCREW = bs.BallScrew(

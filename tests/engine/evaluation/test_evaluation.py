@@ -17,7 +17,7 @@ from ballscrew.engine.evaluation.evaluation import Evaluation, rectangles
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from ballscrew.physics.laws import contact
+from ballscrew.physics.laws import rolling
 from support.quick_kernels import SHIPPED, UNOPTIMISED, set_code_optimisation
 from support.structures import forget_structures
 
@@ -238,7 +238,7 @@ def test_a_law_of_the_same_name_has_another_fingerprint():
 
     def resistance(share):
         def snare_resistance(conditions):
-            return share * contact.snare_resistance(conditions)
+            return share * rolling.snare_resistance(conditions)
 
         return snare_resistance
 

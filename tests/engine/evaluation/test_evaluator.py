@@ -13,7 +13,7 @@ from ballscrew.engine.evaluation.derivatives import derivatives
 from ballscrew.engine.evaluation.outputs import DEFAULT_OUTPUTS, known_outputs
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.friction.model import LAWS
-from ballscrew.physics.laws import contact
+from ballscrew.physics.laws import rolling
 
 MODELS = {name: getattr(bs.FrictionModel, name)() for name in ("olaru2005", "corrected", "reference")}
 ENGINES = ["numpy", pytest.param("compiled", marks=pytest.mark.compiles)]
@@ -153,7 +153,7 @@ def test_laws_that_cannot_be_recorded():
 def test_a_law_is_read_when_the_evaluator_is_made():
     share = [1.0]
     model = dataclasses.replace(
-        MODELS["corrected"], elastic_resistance=lambda conditions: share[0] * contact.snare_resistance(conditions)
+        MODELS["corrected"], elastic_resistance=lambda conditions: share[0] * rolling.snare_resistance(conditions)
     )
     first = bs.evaluator(model, SCREW, OIL)
     before = first(1000.0, 60.0)

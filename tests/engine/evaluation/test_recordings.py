@@ -16,7 +16,7 @@ from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.evaluation.recordings import UnknownPartError, key_of
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.equations import film
-from ballscrew.physics.laws import ball_chain, contact
+from ballscrew.physics.laws import ball_chain, rolling
 from ballscrew.physics.laws.ball_chain import ChainBallForce
 
 MODELS = {name: getattr(bs.FrictionModel, name)() for name in ("olaru2005", "corrected", "reference")}
@@ -185,7 +185,7 @@ def test_a_fixed_value_of_the_sweep_counts(recorded):
 
 def closure(share):
     def snare_resistance(conditions):
-        return share[0] * contact.snare_resistance(conditions)
+        return share[0] * rolling.snare_resistance(conditions)
 
     return snare_resistance
 
@@ -194,11 +194,11 @@ SHARE = 1.0
 
 
 def with_a_global(conditions):
-    return SHARE * contact.snare_resistance(conditions)
+    return SHARE * rolling.snare_resistance(conditions)
 
 
 def with_an_attribute(conditions):
-    return with_an_attribute.share * contact.snare_resistance(conditions)
+    return with_an_attribute.share * rolling.snare_resistance(conditions)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -206,7 +206,7 @@ class WithATable:
     table: dict
 
     def __call__(self, conditions):
-        return self.table["share"] * contact.snare_resistance(conditions)
+        return self.table["share"] * rolling.snare_resistance(conditions)
 
 
 def test_a_law_from_outside_is_never_stale(monkeypatch):
@@ -218,7 +218,7 @@ def test_a_law_from_outside_is_never_stale(monkeypatch):
         monkeypatch.setitem(globals(), "SHARE", 3.0)
 
     with_an_attribute.share = 1.0
-    wrapped = functools.wraps(contact.snare_resistance)(closure(share))
+    wrapped = functools.wraps(rolling.snare_resistance)(closure(share))
     for law in (closure(share), wrapped, with_a_global, with_an_attribute, WithATable(table)):
         model = dataclasses.replace(MODELS["corrected"], elastic_resistance=law)
         share[0] = table["share"] = with_an_attribute.share = 1.0

@@ -28,8 +28,8 @@ from ballscrew.engine.uncertainty.uncertain_value import (
     default_uncertainties,
 )
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce, imposed_ball_force
-from ballscrew.physics.laws.contact import houpert_rolling
 from ballscrew.physics.laws.friction import BalanSharing
+from ballscrew.physics.laws.rolling import houpert_rolling
 from ballscrew.physics.solvers.load_distribution import preload_growth, preload_of
 from ballscrew.questions.band import compute
 

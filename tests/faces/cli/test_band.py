@@ -14,7 +14,7 @@ from ballscrew.engine.uncertainty.bands import Interval, OutputBand
 from ballscrew.faces.sheets import pictures
 from ballscrew.physics.friction.model import LAWS
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.physics.laws.contact import biboulet_houpert_rolling
+from ballscrew.physics.laws.rolling import biboulet_houpert_rolling
 from ballscrew.physics.laws.traits import LawTraits, traits_of
 from ballscrew.questions.band import answer, compute
 from ballscrew.questions.band.sheet import sheet

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.laws.contact import Contact, Inlet
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.inlet import Inlet
 from ballscrew.physics.laws.protocols import InletFactors
 
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}

@@ -37,7 +37,7 @@ from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.loaded_balls import balls_under, loads_of, row_of_balls
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import named_parts
-from ballscrew.physics.laws import ball_chain, contact, frame, friction, torque
+from ballscrew.physics.laws import ball_chain, film, frame, friction, hertz, inlet, rolling, torque
 from ballscrew.physics.laws.ball_chain import (
     CircuitForceLaw,
     ProportionalBallForce,
@@ -47,20 +47,12 @@ from ballscrew.physics.laws.ball_chain import (
     parted_neighbours,
     two_neighbours,
 )
-from ballscrew.physics.laws.contact import (
-    ContactLaws,
-    HamrockDowson,
-    Inlet,
-    biboulet_houpert_rolling,
-    exact_hertz,
-    houpert_hertz,
-    ideal_inlet,
-    olaru_rolling,
-    root_sum_square_film_parameter,
-    snare_resistance,
-)
+from ballscrew.physics.laws.contact import ContactLaws
+from ballscrew.physics.laws.film import HamrockDowson, root_sum_square_film_parameter
 from ballscrew.physics.laws.frame import bearing_frame, helix_frame
 from ballscrew.physics.laws.friction import RunInSharing, ZhouHoeprich
+from ballscrew.physics.laws.hertz import exact_hertz, houpert_hertz
+from ballscrew.physics.laws.inlet import Inlet, ideal_inlet
 from ballscrew.physics.laws.nut_losses import ParasiticLaw
 from ballscrew.physics.laws.protocols import (
     BallChainLaw,
@@ -79,6 +71,7 @@ from ballscrew.physics.laws.protocols import (
     RollingLaw,
     usable,
 )
+from ballscrew.physics.laws.rolling import biboulet_houpert_rolling, olaru_rolling, snare_resistance
 from ballscrew.physics.laws.torque import (
     balanced_race_torques,
     printed_ideal_torque,
@@ -95,20 +88,20 @@ from ballscrew.physics.solvers.slip import Slip, SlipLaw, curvature_slip
 LAWS: Mapping[str, Mapping[str, Any]] = {
     "frame": {"bearing": frame.bearing_frame, "helix": frame.helix_frame},
     "hertz": {
-        "houpert": contact.houpert_hertz,
-        "exact": contact.exact_hertz,
-        "brewe-hamrock": contact.brewe_hamrock_hertz,
+        "houpert": hertz.houpert_hertz,
+        "exact": hertz.exact_hertz,
+        "brewe-hamrock": hertz.brewe_hamrock_hertz,
     },
     "film": {
-        "hamrock-dowson": contact.HamrockDowson,
-        "hamrock-dowson-central": contact.hamrock_dowson_central,
-        "chittenden": contact.chittenden,
+        "hamrock-dowson": film.HamrockDowson,
+        "hamrock-dowson-central": film.hamrock_dowson_central,
+        "chittenden": film.chittenden,
     },
     "film_parameter": {
-        "root-sum-square": contact.root_sum_square_film_parameter,
-        "literal": contact.literal_film_parameter,
+        "root-sum-square": film.root_sum_square_film_parameter,
+        "literal": film.literal_film_parameter,
     },
-    "inlet": {"ideal": contact.ideal_inlet, "heated": contact.Inlet, "flooded": contact.flooded_inlet},
+    "inlet": {"ideal": inlet.ideal_inlet, "heated": inlet.Inlet, "flooded": inlet.flooded_inlet},
     "friction": {
         "zhou-hoeprich": friction.ZhouHoeprich,
         "load-sharing": friction.LoadSharing,
@@ -123,12 +116,12 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
         "limiting-shear": friction.LimitingShearTraction,
     },
     "rolling": {
-        "olaru": contact.olaru_rolling,
-        "biboulet-houpert": contact.biboulet_houpert_rolling,
-        "houpert": contact.houpert_rolling,
-        "aihara": contact.aihara_rolling,
+        "olaru": rolling.olaru_rolling,
+        "biboulet-houpert": rolling.biboulet_houpert_rolling,
+        "houpert": rolling.houpert_rolling,
+        "aihara": rolling.aihara_rolling,
     },
-    "elastic_resistance": {"snare": contact.snare_resistance, "hysteresis": contact.Hysteresis},
+    "elastic_resistance": {"snare": rolling.snare_resistance, "hysteresis": rolling.Hysteresis},
     "slip": {"curvature": curvature_slip, "line": line_slip, "ellipse": ellipse_slip},
     "ball_chain": {
         "one-neighbour": ball_chain.one_neighbour,
@@ -262,7 +255,7 @@ class FrictionModel(ByValue):
             frame=bearing_frame,
             hertz=houpert_hertz,
             film=HamrockDowson(speed_exponent=0.66),
-            film_parameter=contact.literal_film_parameter if literal_film_parameter else root_sum_square_film_parameter,
+            film_parameter=film.literal_film_parameter if literal_film_parameter else root_sum_square_film_parameter,
             ball_chain=one_neighbour,
             race_torques=printed_race_torques,
             ideal_torque=printed_ideal_torque,

@@ -17,7 +17,7 @@ from ballscrew.evidence.papers.olaru2005.verdicts import Finding, Verdict
 from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.laws.contact import HamrockDowson
+from ballscrew.physics.laws.film import HamrockDowson
 
 #: The fields of the model in which the two differ, and what each repair is.
 REPAIRS: Mapping[str, str] = {
