@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew.questions.axis.question import AXIS
-from ballscrew.questions.compare_designs.question import COMPARE
+from ballscrew.questions.compare.question import COMPARE
 from ballscrew.questions.condition.question import CONDITION
 from ballscrew.questions.duty.question import DUTY
 from ballscrew.questions.optimise.question import OPTIMISE

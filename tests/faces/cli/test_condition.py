@@ -9,7 +9,7 @@ from ballscrew.basis.output.sheet import Chart, Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.condition import answer
 from ballscrew.questions.condition.answer import sheet
-from ballscrew.questions.condition.options import ConditionOptions
+from ballscrew.questions.condition.question import ConditionOptions
 from support.pictures import drawn
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -10,11 +10,12 @@ from ballscrew.faces.sheets import files, terminal
 from ballscrew.faces.web import documents
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check import compute
-from ballscrew.questions.check.compute import Checks, Geometry, Options, Rated, one
+from ballscrew.questions.check.compute import Geometry, Options, Rated, one
 from ballscrew.questions.check.sheet import cells, sheet
+from ballscrew.questions.responses import Checks
 from ballscrew.questions.run.compute import NutLoads, run
 from ballscrew.questions.run.sheet import stiffness_fields
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import schemas
 from support.answers import without_unit
 from support.commands import ROOT
 from support.drive_case import drive_case
@@ -28,7 +29,7 @@ def found():
 
 
 def schema_of(cls):
-    return declared.schema(cls).model_json_schema()["properties"]
+    return schemas.schema(cls).model_json_schema()["properties"]
 
 
 def test_ratings_are_on_every_face(found):
@@ -89,7 +90,7 @@ def test_sizes_are_on_every_face(found):
 def test_loads_are_on_every_face(found):
     answer, words = compute.document(found), terminal.text(sheet(found))
     loads, of_loads = answer["loads"], answer["units"]["loads"]
-    schema = declared.schema(NutLoads).model_json_schema()
+    schema = schemas.schema(NutLoads).model_json_schema()
     of_balls = schema["$defs"]["EachBall"]["properties"]
     for name, quantity in quantities_of(BallLoads).items():
         part, unit, described = loads, of_loads, schema["properties"]

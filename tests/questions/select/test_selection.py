@@ -15,8 +15,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli.progress import progress
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions.select import case_text, compute
-from ballscrew.questions.select.answer import document, verdict
+from ballscrew.questions.select.answer import document
 from ballscrew.questions.select.candidates import BY_LOADS, NEARLY, USUAL_LIFE
+from ballscrew.questions.select.compute import verdict
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import OF_MOTION
 from ballscrew.questions.select.sheet import cost, sheet

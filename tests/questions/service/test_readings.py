@@ -6,7 +6,7 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.questions.service import reading
-from ballscrew.questions.service.answer import probability
+from ballscrew.questions.service.compute import probability
 
 
 @pytest.mark.parametrize(

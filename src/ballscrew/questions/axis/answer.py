@@ -41,9 +41,11 @@ from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quanti
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
+from ballscrew.questions.axis.question import AxisOptions
 from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
 from ballscrew.questions.shared.elements_text import element_lines
 from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.question import Answer, Request, Work
 
 #: Places within the travel that the terminal shows.
 SHOWN = 5
@@ -416,3 +418,14 @@ def _stacked(report: ChainReport) -> Iterator[Band]:
         if np.any(share):
             yield Band(name, report.chain.position, below, below + share, _COLOURS[name], solid=True)
             below = below + share
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options, case = request.options(AxisOptions), request.load(moves)
+
+    def answer(_: object) -> Answer:
+        report = chain_of(case, options.at)
+        return Answer(sheet(report), lambda: document(report), f"{len(report.chain.position)} places")
+
+    return Work(answer)

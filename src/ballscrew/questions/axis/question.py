@@ -2,34 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any
+import dataclasses
+from collections.abc import Sequence
+from typing import Annotated
 
-from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Endpoint, Question, Request, Work
+from ballscrew.questions.shared.question import Question
 
 
-def _prepare(request: Request) -> Work:
-    from ballscrew.questions.axis.answer import chain_of, document, moves, sheet
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class AxisOptions:
+    """What is asked of an axis: places of its nut, m."""
 
-    options, case = request.options(AxisOptions), request.load(moves)
-
-    def answer(_: object) -> Answer:
-        report = chain_of(case, options.at)
-        return Answer(sheet(report), lambda: document(report), f"{len(report.chain.position)} places")
-
-    return Work(answer)
-
-
-def _response() -> Any:
-    from ballscrew.questions.axis.answer import ChainResults
-    from ballscrew.questions.shared.answer_parts import Assumed
-    from ballscrew.questions.shared.declared import response
-
-    return response(ChainResults, "Chain", beside=Assumed)
+    at: Annotated[
+        Sequence[float],
+        Option(
+            'Place of the nut from the fixed bearing, "300 mm"; may be repeated.',
+            metavar="PLACE",
+            unit="m",
+            shown_in="mm",
+        ),
+    ] = ()
 
 
 AXIS = Question(
+    module="ballscrew.questions.axis.answer",
     name="axis",
     help="""Rigidity, lost motion and critical speed of an axis.
 
@@ -42,6 +39,4 @@ AXIS = Question(
     case_texts={"settings": 'Change a value: --set installation.ends="fixed-fixed".', "calibration": None},
     files=Option("Also write a table (.csv, .xlsx) or a picture; may be repeated.", short="-o", metavar="FILE"),
     has_several_files=True,
-    prepare=_prepare,
-    endpoint=Endpoint(response=_response),
 )

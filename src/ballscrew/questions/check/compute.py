@@ -8,8 +8,6 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, NamedTuple
 
-from pydantic import Field
-
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantities_of
@@ -28,14 +26,11 @@ from ballscrew.physics.sizing.checks import Check, all_hold, checks, judged, ver
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
-from ballscrew.questions.check.options import flags
+from ballscrew.questions.check.question import flags
 from ballscrew.questions.run import answer as run
-from ballscrew.questions.run.answer import RunResults, results
-from ballscrew.questions.run.compute import NutLoads, NutState, Run, with_nut
-from ballscrew.questions.run.response import VENDOR_ROWS
-from ballscrew.questions.shared.answer_parts import JudgedCheck
+from ballscrew.questions.run.answer import results
+from ballscrew.questions.run.compute import NutState, Run, with_nut
 from ballscrew.questions.shared.check_lines import source_document, with_unlikely
-from ballscrew.questions.shared.declared import response, with_answers
 from ballscrew.questions.shared.envelope import numbers
 from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of
 from ballscrew.questions.shared.own_screws import tables_of_row
@@ -363,28 +358,6 @@ def _computed(case: Case) -> Ratings | None:
         return nut_tables.ratings(case.screw, case.origins.row)
     except InputError:
         return None
-
-
-class OneCheck(JudgedCheck):
-    """A check with its text for people."""
-
-    passes: bool | None = Field(description="as ``holds``")
-    words: str = Field(description="as ``text``")
-
-
-class Beside(with_answers(geometry=Geometry, loads=NutLoads, vendor_rows=VENDOR_ROWS, ratings=BothRatings)):
-    """What the checks of a case have beside its results."""
-
-    checks: list[OneCheck]
-    judged: int = Field(description="number of the checks that were judged; the others lack an input")
-    holds: bool = Field(description="true where all checks were judged and hold")
-    verdict: str
-    nut: str = Field(description="kind of the nut; a case without one is checked with a single nut")
-    assumed: list[str]
-
-
-class Checks(response(RunResults, "Checks", beside=Beside)):
-    """The checks of a case, with its results."""
 
 
 def document(checked: Checked) -> dict[str, Any]:

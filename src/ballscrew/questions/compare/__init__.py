@@ -1,1 +1,1 @@
-"""The torque by several models and by rules of one line."""
+"""The torque by several models, laws and rules of one line; or several designs side by side."""

@@ -2,62 +2,65 @@
 
 from __future__ import annotations
 
-from typing import Any
+import dataclasses
+from collections.abc import Mapping
+from typing import Annotated
 
-from ballscrew.questions.condition.options import ConditionOptions
+from ballscrew.questions.shared.log_options import Inertia, KeepGoing, TorqueConstant, TorqueKind, headings
 from ballscrew.questions.shared.options import Option
 from ballscrew.questions.shared.question import (
     CASE_OF_LOGS,
-    Answer,
-    Done,
     Endpoint,
     File,
     Question,
-    Request,
     Sent,
-    Work,
 )
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ConditionOptions:
+    """What is asked of a condition; numbers in SI."""
+
+    #: That of the case is of another motion.
+    speed: Annotated[
+        float | None,
+        Option(
+            'Screw speed of the tests of a table without speeds: "100 rpm".',
+            metavar="VALUE",
+            unit="rad/s",
+            shown_in="rpm",
+            above=0,
+            hint="check the number and its unit",
+        ),
+    ] = None
+    reference_temperature: Annotated[
+        float | None,
+        Option(
+            'Temperature to reduce the torques to: "20 degC"; else the first.',
+            metavar="VALUE",
+            flag="at",
+            unit="K",
+            shown_in="degC",
+        ),
+    ] = None
+    baseline: Annotated[int, Option("Number of first tests that count as healthy.", metavar="TESTS")] = 5
+    tolerance: Annotated[float, Option("Share of the preload that may be lost.", metavar="SHARE")] = 0.1
+    false_alarms: Annotated[float, Option("Share of healthy tests that may give an alarm.", metavar="SHARE")] = 0.002
+    kind: TorqueKind = "unknown"
+    columns: Annotated[Mapping[str, str], headings('Heading of a column: torque="M_R [N m]".')] = dataclasses.field(
+        default_factory=dict[str, str]
+    )
+    torque_constant: TorqueConstant = None
+    inertia: Inertia = None
+    keep_going: KeepGoing = False
+
 
 #: Logs of one condition; more tests stand in a table.
 MOST_LOGS = 100
 
 
-def _prepare(request: Request) -> Work:
-    from ballscrew.questions.condition.answer import check_kind, document, of_files, sheet
-
-    tests = request.files["tests"]
-    _check_files(request)
-    check_kind(len(tests), request.written)
-    options, case = request.options(ConditionOptions), request.load()
-
-    def answer(done: Done) -> Answer:
-        condition = of_files(case, tests, options, done)
-        return Answer(sheet(case, condition), lambda: document(case, condition), f"{len(condition.states)} tests")
-
-    return Work(answer, "condition")
-
-
-def _check_files(request: Request) -> None:
-    """Raise :class:`~ballscrew.basis.errors.InputError` for a question without case or tests."""
-    from ballscrew.basis.errors import Fault, raise_if_any
-
-    faults: list[Fault] = []
-    if request.case is None:
-        faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
-    if not request.files["tests"]:
-        faults.append(Fault("TABLE", "missing", "", "give a table with a row for each test, or the logs of the tests"))
-    raise_if_any(faults)
-
-
-def _response() -> Any:
-    from ballscrew.questions.condition.answer import ConditionResults
-    from ballscrew.questions.shared.answer_parts import OfLogs
-    from ballscrew.questions.shared.declared import response
-
-    return response(ConditionResults, "Condition", beside=OfLogs)
-
-
 CONDITION = Question(
+    module="ballscrew.questions.condition.answer",
     name="condition",
     help="""Preload of a nut over time, with trend and alarm. From torques that were logged test by test.
 
@@ -77,6 +80,5 @@ CONDITION = Question(
     options=(ConditionOptions,),
     case_texts={"settings": 'Change a value: --set nut.preload="4 kN ± 10 %".'},
     files=Option("Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg).", metavar="FILE"),
-    prepare=_prepare,
-    endpoint=Endpoint(response=_response, files=(Sent("tests", "tests", most=MOST_LOGS),)),
+    endpoint=Endpoint(files=(Sent("tests", "tests", most=MOST_LOGS),)),
 )

@@ -3,12 +3,25 @@
 from __future__ import annotations
 
 import dataclasses
-from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
-from ballscrew.questions.duty.options import DutyOptions
+from ballscrew.questions.shared.log_options import OnlyGiven, number_of_samples
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Sent, Work
+from ballscrew.questions.shared.question import Endpoint, Question, Sent
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DutyOptions:
+    """What is asked of a duty: a band of its torques and energies."""
+
+    band: Annotated[bool, Option("Band of torques and energies, by uncertain inputs.")] = False
+    samples: Annotated[int | None, number_of_samples("samples, 1024")] = None
+    only_given: OnlyGiven = False
+
+    @property
+    def is_banded(self) -> bool:
+        """True where a band is asked for, by itself or by one of its options."""
+        return self.band or self.only_given or self.samples is not None
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -21,40 +34,8 @@ class TraceOptions:
     ] = None
 
 
-def _prepare(request: Request) -> Work:
-    from ballscrew.cases.schema.duty_schema import TRAJECTORY
-    from ballscrew.questions.duty import compute
-    from ballscrew.questions.duty.answer import document, with_band
-    from ballscrew.questions.duty.sheet import sheet
-
-    options, trace = request.options(DutyOptions), request.options(TraceOptions).trace
-    assert request.case is not None
-    tables = request.case.tables()
-    if trace is not None:
-        tables["motion"] = {"kind": TRAJECTORY, "file": str(Path(trace).absolute())}
-    case = request.case.build(tables, moves=True)
-
-    def answer(done: Done) -> Answer:
-        report = compute.duty(case)
-        size = f"{len(report.duty.states.time)} states"
-        if not options.is_banded:
-            return Answer(sheet(report), lambda: document(report), size)
-        from ballscrew.questions.duty.band import band  # loads xarray
-
-        bands = band(report, options.samples, only_given=options.only_given, done=done)
-        return Answer(sheet(report, bands), lambda: with_band(bands), size)
-
-    return Work(answer, "band" if options.is_banded else "")
-
-
-def _response() -> Any:
-    from ballscrew.questions.duty.compute import DutyReport
-    from ballscrew.questions.shared.declared import response
-
-    return response(DutyReport, "Duty", judged=True)
-
-
 DUTY = Question(
+    module="ballscrew.questions.duty.answer",
     name="duty",
     help="""Motor torque, energy, brake and life over a cycle.
 
@@ -68,6 +49,5 @@ DUTY = Question(
     ),
     has_several_files=True,
     has_options_last=True,
-    prepare=_prepare,
-    endpoint=Endpoint(response=_response, options=(), files=(Sent("trace", "trace", is_optional=True),)),
+    endpoint=Endpoint(options=(), files=(Sent("trace", "trace", is_optional=True),)),
 )

@@ -26,7 +26,7 @@ from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.questions.fit.options import DEFAULT_FREE, FitOptions
+from ballscrew.questions.fit.question import DEFAULT_FREE, FitOptions
 from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag
 
 #: Options of the command line by the fields in which the fit finds faults.

@@ -14,7 +14,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.fit.question import FitOptions
 from ballscrew.questions.shared.option_values import read
 
 #: The quantities that describe a test.

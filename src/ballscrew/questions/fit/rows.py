@@ -12,7 +12,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.questions.fit.compute import FitReport, fit
 from ballscrew.questions.fit.log import steady_log
-from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.fit.question import FitOptions
 from ballscrew.questions.shared import every_row
 from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
 

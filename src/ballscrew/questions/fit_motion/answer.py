@@ -48,7 +48,7 @@ from ballscrew.evidence.moving_logs.motion_fit import (
 )
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.evidence.moving_logs.screw_model import NAMES
-from ballscrew.questions.fit_motion.options import FitMotionOptions
+from ballscrew.questions.fit_motion.question import FitMotionOptions
 from ballscrew.questions.shared.declared import attributes
 from ballscrew.questions.shared.options import options_of
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from ballscrew.cases.case_files.case import Case
 from ballscrew.evidence.moving_logs import reading
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
-from ballscrew.questions.fit_motion.options import FitMotionOptions
+from ballscrew.questions.fit_motion.question import FitMotionOptions
 from ballscrew.questions.shared.option_values import assignments
 
 

@@ -8,14 +8,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePath
 from typing import Any
 
-from pydantic import Field
-
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import TARGETS, Export, Option, WorstError, options_of
-from ballscrew.questions.shared.answer_parts import Closed, Tables
-from ballscrew.questions.shared.declared import from_attributes, parts_like, response
+from ballscrew.questions.shared.declared import from_attributes, parts_like
 from ballscrew.questions.shared.envelope import envelope
 
 
@@ -63,54 +60,6 @@ def _written(option: Option) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return ""
     return str(value) if option.quantity is None else units.shown(value, option.quantity)
-
-
-class Choice(Closed):
-    """A choice that a target has."""
-
-    name: str
-    default: str
-    meaning: str
-
-
-class Target(Closed):
-    """A target of a hand-over."""
-
-    name: str
-    meaning: str
-    options: list[Choice]
-
-
-class Targets(Closed):
-    """The targets of a hand-over."""
-
-    targets: list[Target]
-
-
-class SentContent(Closed):
-    """A file of a hand-over, or a zip archive of several."""
-
-    name: str
-    media_type: str
-    base64: str
-
-
-class HandOverWords(Closed):
-    """What a hand-over says: ranges, worst errors, warnings."""
-
-    lines: list[str]
-    ranges: list[str] = Field(description="ranges and worst errors alone")
-
-
-class Beside(Closed):
-    """What stands beside the results of a hand-over."""
-
-    provenance: Tables
-    words: HandOverWords
-    file: SentContent
-
-
-HandOver: Any = response(HandOverResults, "HandOver", beside=Beside)
 
 
 def text(export: Export, written: Sequence[Path]) -> str:

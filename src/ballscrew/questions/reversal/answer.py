@@ -64,9 +64,10 @@ from ballscrew.physics.moving_balls.friction_states import (
     fit_slip_elements,
     of_elements,
 )
-from ballscrew.questions.reversal.options import ReversalOptions
+from ballscrew.questions.reversal.question import ReversalOptions
 from ballscrew.questions.shared.declared import from_attributes
 from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.question import Answer, Request, Work
 
 #: Shares of the swing whose places are told.
 SHARES = (0.5, 0.63, 0.9, 0.98)
@@ -505,3 +506,14 @@ def _columns(report: ReversalReport) -> Columns:
             *parts,
         ],
     )
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options, case = request.options(ReversalOptions), request.load()
+
+    def answer(_: object) -> Answer:
+        report = reversal(case, options)
+        return Answer(sheet(report), lambda: document(report), f"{len(report.reversal.screw_angle)} angles")
+
+    return Work(answer, "reversal")

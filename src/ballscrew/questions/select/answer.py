@@ -4,29 +4,31 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
-from ballscrew.basis import units
-from ballscrew.basis.quantities import Force, Info, Length, Ratio, Torque, fields_of, quantities_of
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Force, Info, Length, Ratio, fields_of, quantities_of
 from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import inputs
+from ballscrew.cases.case_files import case_file, inputs, project
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
 from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.checks import failing, judged, verdict_of
-from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.physics.sizing.checks import judged
 from ballscrew.questions.check import compute
 from ballscrew.questions.duty import verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport, FullBath
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select.candidates import Candidate
-from ballscrew.questions.select.compute import Ranked, Selection
+from ballscrew.questions.select.compute import BrakeOfNeed, Ranked, Selection, plan, select, verdict
 from ballscrew.questions.select.need import Need
+from ballscrew.questions.select.question import CASE_FILE, ListOptions, SelectOptions, TableOptions
 from ballscrew.questions.select.requirements import OBJECTIVES, Requirements
+from ballscrew.questions.select.sheet import cost, sheet
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.check_lines import with_unlikely
 from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
+from ballscrew.questions.shared.question import Answer, Done, Request, Work
 
 _ROW = quantities_of(CatalogueRow)
 
@@ -117,20 +119,6 @@ class MotorTorque(table_of({name: NUMBERS[name] for name in ("torque_peak", "tor
     """The torques that a motor is chosen by."""
 
 
-class BrakeOfNeed(NamedTuple):
-    """What the brake of an axis must hold."""
-
-    #: True where the axis starts to move by itself, or goes on once started.
-    falls: bool
-    holding_torque: Annotated[Torque, Info("M_h", "largest torque that keeps the axis at rest")]
-    load_torque: Annotated[Torque, Info("M_l", "torque of the load without any friction")]
-    brake_torque: Annotated[Torque, Info("M_b", "rated torque of a brake")]
-
-
-#: The torques of the brake.
-BRAKE = tuple(quantities_of(BrakeOfNeed))
-
-
 @dataclasses.dataclass(frozen=True, eq=False)
 class OfMotion:
     """What a candidate has beside the others where the need has a motion."""
@@ -192,7 +180,6 @@ def objective(name: str) -> OneObjective:
     return OneObjective(name, one.quantity.info.meaning, one.quantity.unit, "more" if one.larger_is_better else "less")
 
 
-_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 #: What is the same for all candidates, or too long for a list.
 _LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "holds", "verdict")
 
@@ -287,15 +274,125 @@ def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> 
     }
 
 
-def verdict(result: Candidate) -> str:
-    """All checks in a few words, with the utilisation of those that fail."""
-    if result.complete:
-        said = verdict_of(result.checks, passes="holds", by_how_much=True)
-    else:
-        names = ", ".join(failing(check) for check in result.failed)
-        said = f"cannot hold: {names}"
-    text = with_unlikely(said, result.case)
-    limit = result.rigid_lift_off_load
-    if limit is not None:
-        text += f"; preload lost (rigid bodies: above {units.shown(limit, _LIFT_OFF)})"
-    return text if result.valid else f"{text}; outside the model's validity"
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options, listed = request.options(SelectOptions), request.options(ListOptions)
+    table = request.options(TableOptions)
+    assert request.need is not None
+    if listed.rank is not None and not any(map(_is_case, request.to)):
+        raise InputError(Fault("--rank", "names no file", str(listed.rank), "add --to axis.toml"))
+    refuse_overwriting(request, *([] if table.rows is None else [Path(table.rows)]))
+    need, words = request.need, options.words or None
+    settings = request.case_options.settings
+    planned = plan(need, rows=table.rows, words=words, settings=settings, keep_going=table.keep_going)
+    if listed.rank is not None and listed.rank > planned.candidates:
+        raise _no_such_rank(listed.rank, planned.candidates)
+
+    def answer(done: Done) -> Answer:
+        selection = select(
+            need,
+            rows=table.rows,
+            words=words,
+            objectives=objectives(listed.objectives),
+            **vars(request.case_options),
+            keep_going=table.keep_going,
+            complete=options.complete,
+            done=done,
+            found_one=lambda candidate: request.send(row_document(candidate)),
+        )
+        shown = [
+            each
+            for each in selection.ranked
+            if (each.candidate.fits or not listed.holds) and (each.pareto or not listed.front)
+        ]
+
+        def write(path: Path) -> str:
+            return _write_case(path, selection, shown, listed.rank)
+
+        return Answer(
+            sheet(selection, shown, listed.first),
+            lambda: document(selection, shown),
+            f"{len(shown)} candidates",
+            write=write,
+            notes=selection.notes,
+            is_interrupted=selection.interrupted,
+        )
+
+    return Work(answer, "candidates", cost=cost(planned))
+
+
+def plan_document(request: Request) -> Any:
+    """The document of the plan."""
+    options, table = request.options(SelectOptions), request.options(TableOptions)
+    assert request.need is not None
+    return declared.document(
+        plan(request.need, rows=table.rows, words=options.words or None, keep_going=table.keep_going)
+    )
+
+
+def _is_case(path: Path) -> bool:
+    return path.suffix.lower() == CASE_FILE
+
+
+def _write_case(path: Path, selection: Selection, shown: Sequence[Ranked], rank: int | None) -> str:
+    """Write the case of a candidate, and return what is in it."""
+    chosen = _chosen(path, selection, shown, rank)
+    text = verdict(chosen.candidate)
+    case_text.save(path, selection, chosen, text)
+    return f"{chosen.candidate.variant.label}, rank {chosen.rank}: {text}"
+
+
+def _chosen(path: Path, selection: Selection, shown: Sequence[Ranked], rank: int | None) -> Ranked:
+    """The candidate of a rank, or the first of those that are shown."""
+    candidates = shown if rank is None else [each for each in selection.ranked if each.rank == rank]
+    if candidates:
+        return candidates[0]
+    if rank is None:
+        raise InputError(Fault("--to", "there is no candidate to write", str(path), "leave out --holds and --front"))
+    raise _no_such_rank(rank, len(selection.ranked))
+
+
+def _no_such_rank(rank: int, candidates: int) -> InputError:
+    return InputError(Fault("--rank", "there is no such candidate", str(rank), f"there are {candidates}"))
+
+
+def objectives(written: Sequence[str]) -> list[str] | None:
+    """The names of objectives, also of those written with a dash; None for those of the need."""
+    return [name.replace("-", "_") for name in written] or None
+
+
+def refuse_overwriting(request: Request, *others: Path) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a file that would be written over one that is read.
+
+    These are the need, whatever file it names, and ``others``.
+    """
+    need = request.need
+    if not isinstance(need, Path) or not any(path.exists() for path in request.to):
+        return
+    need_file = project.file_of(need)
+    tables = case_file.override(case_file.read(need), request.case_options.settings)
+    named = [need_file.parent / name for name in _texts(tables)]
+    for path in filter(Path.exists, request.to):
+        if _is_same(path, need_file):
+            raise InputError(Fault("--to", "is the file of the need", str(path), "choose another name"))
+        if any(_is_same(path, other) for other in (*others, *named)):
+            raise InputError(Fault("--to", "is a file that is read", str(path), "choose another name"))
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """All texts in tables: any of them may name a file."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping):
+        for item in value.values():
+            yield from _texts(item)
+    elif isinstance(value, list):
+        for item in value:
+            yield from _texts(item)
+
+
+def _is_same(path: Path, other: Path) -> bool:
+    try:
+        return path.samefile(other)
+    except (OSError, ValueError):  # no such file, or no name of one
+        return False

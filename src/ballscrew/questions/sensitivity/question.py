@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any
+import dataclasses
+from typing import Annotated
 
-from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Work
+from ballscrew.questions.shared.question import Question
 
 
-def _prepare(request: Request) -> Work:
-    from ballscrew.questions.sensitivity.answer import document, sensitivity, sheet
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class SensitivityOptions:
+    """What is asked of a sensitivity analysis."""
 
-    options, case = request.options(SensitivityOptions), request.load()
-
-    def answer(done: Done) -> Answer:
-        report = sensitivity(case, options, done)
-        return Answer(sheet(case, report), lambda: document(case, report), f"{len(report.result.inputs)} inputs")
-
-    return Work(answer, "sensitivity")
-
-
-def _response() -> Any:
-    from ballscrew.questions.sensitivity.answer import Indices
-    from ballscrew.questions.shared.declared import response
-
-    return response(Indices, "Sensitivity", named="sensitivity")
+    output: Annotated[str, Option("Result, for example efficiency.", metavar="NAME")] = "screw_torque"
+    method: Annotated[
+        str,
+        Option("sobol: shares of the variance; morris: screening of many inputs; local: derivatives.", metavar="NAME"),
+    ] = "sobol"
+    samples: Annotated[int | None, Option("A power of two (sobol), or trajectories (morris).", metavar="N")] = None
+    seed: Annotated[int, Option("Seed: the same one gives the same numbers.", metavar="N")] = 0
+    only_given: Annotated[
+        bool, Option("Only inputs that the case file gives a distribution, and none of the usual ones.")
+    ] = False
 
 
 SENSITIVITY = Question(
+    module="ballscrew.questions.sensitivity.answer",
     name="sensitivity",
     help="""Share of each uncertain input in a band. The output also says what to measure to halve the band.
 
@@ -38,6 +36,4 @@ SENSITIVITY = Question(
     options=(SensitivityOptions,),
     case_texts={"settings": 'Change a value: --set screw.lead="10 mm ± 0.02 mm".'},
     files=Option("Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg).", short="-o", metavar="FILE"),
-    prepare=_prepare,
-    endpoint=Endpoint(response=_response),
 )

@@ -2,52 +2,58 @@
 
 from __future__ import annotations
 
-from typing import Any
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Annotated
 
-from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
+from ballscrew.questions.shared.log_options import Inertia, KeepGoing, TorqueConstant, TorqueKind, headings
 from ballscrew.questions.shared.options import Option
 from ballscrew.questions.shared.question import (
     CASE_OF_LOGS,
-    Answer,
-    Done,
     Endpoint,
     File,
     Question,
-    Request,
     Sent,
-    Work,
 )
 
 
-def _prepare(request: Request) -> Work:
-    from ballscrew.questions.service import compute
-    from ballscrew.questions.service.answer import document
-    from ballscrew.questions.service.reading import check_question, reading
-    from ballscrew.questions.service.sheet import sheet
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ServiceOptions:
+    """What is asked of a service by logs; numbers in SI."""
 
-    logs = request.files["logs"]
-    check_question(logs, request.case is not None, request.written)
-    case = request.load()
-    has_torque = request.written["torque"] is not None
-    torque = reading(request.written) if has_torque else None
-    options = ServiceOptions() if has_torque else request.options(ServiceOptions)
-
-    def answer(done: Done) -> Answer:
-        report = compute.of_logs(case, logs, options, done) if torque is None else compute.of_torque(case, torque)
-        return Answer(sheet(case, report), lambda: document(case, report), f"{len(report.estimates)} preloads")
-
-    return Work(answer, "service")
+    tolerance: Annotated[float, Option("Share of the preload that may be lost.", metavar="SHARE")] = 0.1
+    free: Annotated[
+        Sequence[str], Option("What to fit beside the preload, with commas: constant_torque.", metavar="NAMES")
+    ] = ()
+    kind: TorqueKind = "unknown"
+    columns: Annotated[Mapping[str, str], headings('Heading of a column, in both logs: load="0 N".')] = (
+        dataclasses.field(default_factory=dict[str, str])
+    )
+    torque_constant: TorqueConstant = None
+    inertia: Inertia = None
+    keep_going: KeepGoing = False
 
 
-def _response() -> Any:
-    from ballscrew.questions.service.answer import ServiceResults
-    from ballscrew.questions.shared.answer_parts import OfLogs
-    from ballscrew.questions.shared.declared import response
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ReadingOptions:
+    """A torque without load in place of logs: as text with its interval; speed and temperature in SI."""
 
-    return response(ServiceResults, "Service", beside=OfLogs)
+    torque: Annotated[
+        str | None, Option('In place of logs: drag torque with seals, "0.40 ± 0.02 N m".', metavar="VALUE")
+    ] = None
+    speed: Annotated[
+        float | None,
+        Option(
+            'Screw speed at which that torque was measured: "100 rpm".', metavar="VALUE", unit="rad/s", shown_in="rpm"
+        ),
+    ] = None
+    temperature: Annotated[
+        float | None, Option('Temperature of the nut meanwhile: "35 degC".', metavar="VALUE", unit="K", shown_in="degC")
+    ] = None
 
 
 SERVICE = Question(
+    module="ballscrew.questions.service.answer",
     name="service",
     help="""Preload left in a nut, by logs or a drag torque.
 
@@ -69,9 +75,7 @@ SERVICE = Question(
     options=(ReadingOptions, ServiceOptions),
     case_texts={"settings": 'Change a value: --set nut.preload="4 kN ± 10 %".'},
     files=Option("Draw both logs and both preloads: .png, .svg or .pdf.", flag="picture", metavar="FILE"),
-    prepare=_prepare,
     endpoint=Endpoint(
-        response=_response,
         options=(ServiceOptions,),
         files=(Sent("new", "logs", is_optional=True), Sent("worn", "logs")),
     ),

@@ -11,7 +11,7 @@ from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.engine.uncertainty.distributions import Normal
 from ballscrew.engine.uncertainty.uncertain_value import parse_uncertain
 from ballscrew.questions.service.compute import TORQUE, Reading
-from ballscrew.questions.service.options import ReadingOptions
+from ballscrew.questions.service.question import ReadingOptions
 from ballscrew.questions.shared.option_values import read
 
 

@@ -2,98 +2,42 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+import dataclasses
+from typing import Annotated
 
+from ballscrew.questions.shared.log_options import Level, OnlyGiven, number_of_samples
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Work
-from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
-
-_TO = "--to"
-#: Files that a folder gets, with the columns that they have alone.
-_FILES = {
-    "warm_up.csv": "over time",
-    "warm_up.xlsx": "",
-    "compensation.csv": "compensation",
-    "warm_up_band.csv": "band",
-    "warm_up.png": "",
-}
+from ballscrew.questions.shared.question import Endpoint, Question
 
 
-def _prepare(request: Request) -> Work:
-    from ballscrew.basis.errors import Fault, InputError, raise_if_any
-    from ballscrew.questions.shared.option_values import read
-    from ballscrew.questions.warm_up import compute
-    from ballscrew.questions.warm_up.answer import document, with_band
-    from ballscrew.questions.warm_up.sheet import sheet
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class WarmUpOptions:
+    """What is asked of a warm-up: hours of work and of rest, and a band."""
 
-    drift, cool_down = request.options(DriftOptions), request.written["cool_down"]
-    rest = (compute.REST if drift.drift_cycle else 0.0) if cool_down is None else cool_down
-    options = read(WarmUpOptions, {**request.written, "cool_down": rest})
-    raise_if_any(compute.option_faults(options.band, options.samples, options.level, options.only_given))
-    compute.check_hours(options.hours, options.cool_down)
-    if drift.feed_share is not None and not drift.drift_cycle:
-        raise InputError(Fault("--feed-share", "needs --drift-cycle", f"{drift.feed_share:g}", "add --drift-cycle"))
-    case = request.load(compute.moves)
-    if drift.drift_cycle:
-        case = compute.drift_cycle(case, compute.FEED_SHARE if drift.feed_share is None else drift.feed_share)
-
-    def answer(done: Done) -> Answer:
-        if not options.band:
-            report = compute.warmed_up(case, options.hours, options.cool_down)
-            return Answer(sheet(report), lambda: document(report))
-        from ballscrew.questions.warm_up.band import band  # loads xarray
-
-        bands = band(
-            case,
-            options.hours,
-            options.cool_down,
-            samples=options.samples,
-            level=options.level,
-            only_given=options.only_given,
-            done=done,
-        )
-        return Answer(sheet(bands.report, bands), lambda: with_band(bands))
-
-    files = [file for place in request.to for file in _files(place, options.band).items()]
-    return Work(answer, "band" if options.band else "", dict(files))
+    hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
+    cool_down: Annotated[float, Option("Hours of rest after the work; 0 if left out.", metavar="H")] = 0.0
+    band: Annotated[bool, Option("Bands of all results, by uncertain surroundings and friction.")] = False
+    samples: Annotated[int | None, number_of_samples("transients, 512")] = None
+    level: Level = None
+    only_given: OnlyGiven = False
 
 
-def _files(place: Path, has_band: bool) -> dict[Path, str]:
-    """The files of a place: itself if it ends as one, or those of a folder, which is made. They can be written."""
-    from ballscrew.basis.atomic_files import check_writable, write_error
-    from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.shared import every_row
-    from ballscrew.questions.shared.charts import SUFFIXES
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class DriftOptions:
+    """A cycle like that of ISO 230-3 in place of the motion of the case, which has a rest of its own."""
 
-    known = (*every_row.KINDS, *SUFFIXES)
-    if place.suffix and not place.is_dir():
-        if place.suffix.lower() not in known:
-            remedy = f"end it in {', '.join(known[:-1])} or {known[-1]}, or name a folder"
-            raise InputError(Fault(_TO, "unknown kind of file", str(place), remedy))
-        files = {place: ""}
-    else:
-        try:
-            place.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise write_error(_TO, place, error) from None
-        files = {place / name: columns for name, columns in _FILES.items() if has_band or columns != "band"}
-    for path in files:
-        if path.suffix.lower() in every_row.KINDS:
-            every_row.check_path(path)
-        else:
-            check_writable(_TO, path)
-    return files
-
-
-def _response() -> Any:
-    from ballscrew.questions.shared.declared import response
-    from ballscrew.questions.warm_up.answer import BesideWarmUp, WarmUpResults
-
-    return response(WarmUpResults, "WarmUp", beside=BesideWarmUp)
+    hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
+    cool_down: Annotated[float | None, Option("Hours of rest after the work; 0 if left out.", metavar="H")] = None
+    drift_cycle: Annotated[
+        bool, Option("A cycle like that of ISO 230-3: full stroke at a share of rapid, an hour of rest.")
+    ] = False
+    feed_share: Annotated[
+        float | None, Option("With --drift-cycle: feed as a share of rapid; 0.5 if left out.", metavar="SHARE")
+    ] = None
 
 
 WARM_UP = Question(
+    module="ballscrew.questions.warm_up.answer",
     name="warm-up",
     help="""Temperatures, growth and preload over hours. The output has the torque and the steady state, too.
 
@@ -109,6 +53,5 @@ WARM_UP = Question(
         metavar="PATH",
     ),
     has_several_files=True,
-    prepare=_prepare,
-    endpoint=Endpoint(response=_response, options=(WarmUpOptions,)),
+    endpoint=Endpoint(options=(WarmUpOptions,)),
 )

@@ -1,4 +1,4 @@
-"""Designs side by side: what each needs against the first, its checks, the parts of its torque; and their sheet."""
+"""Designs side by side, with their sheet; and the answer to a comparison, of them or of the models of one case."""
 
 from __future__ import annotations
 
@@ -18,7 +18,12 @@ from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.check.compute import Checked, checked, list_document, with_nut_named
 from ballscrew.questions.check.sheet import cells
+from ballscrew.questions.compare.compute import comparison, document
+from ballscrew.questions.compare.question import CompareOptions
+from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared.charts import colour_of
+from ballscrew.questions.shared.question import Answer, Done, Request, Work
+from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -79,7 +84,7 @@ def _checked(
 COMPARED = ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
 
 
-def document(result: SideBySide) -> dict[str, Any]:
+def document_of_designs(result: SideBySide) -> dict[str, Any]:
     """All designs in SI, each as ``ballscrew check --json`` has it; a change is a share of the value of the first."""
     first = result.designs[0]
     return {
@@ -108,7 +113,7 @@ _HEADINGS = {
 }
 
 
-def sheet(designs: SideBySide) -> Sheet:
+def sheet_of_designs(designs: SideBySide) -> Sheet:
     """All that people see of designs side by side."""
     first = designs.designs[0]
     if designs.own:
@@ -163,3 +168,48 @@ def bars(parts: Mapping[str, Mapping[str, float]], bands: Mapping[str, tuple[flo
         for name, of_design in parts.items()
     ]
     return Bars("friction torque on the screw", _RESULT["screw_torque"], shown)
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options = request.options(CompareOptions)
+    paths = request.files["cases"]
+    is_one = not paths or is_one_case(paths)
+    if is_one and options.own:
+        raise InputError(Fault("--own", "is for several designs", "", "name several case files, or a project"))
+    if not is_one and options.self_heating:
+        raise InputError(Fault("--self-heating", "is for one case", "", "compare one design alone"))
+    return _models(request, options) if is_one else _designs(request, options)
+
+
+def _models(request: Request, options: CompareOptions) -> Work:
+    """The comparison of models and laws on one case."""
+    case = request.load()
+
+    def answer(done: Done) -> Answer:
+        heating = None
+        if options.self_heating:
+            from ballscrew.questions.warm_up.self_heating import self_heating
+
+            heating = self_heating(case)
+        warm = case if heating is None else heating.warm
+        compared = comparison(warm, done)
+        return Answer(
+            sheet(warm, compared, () if heating is None else heating.records),
+            lambda: with_self_heating(document(warm, compared), heating),
+            f"{len(compared.rows)} models and laws",
+        )
+
+    return Work(answer)
+
+
+def _designs(request: Request, options: CompareOptions) -> Work:
+    """The comparison of several designs."""
+
+    def answer(_: object) -> Answer:
+        designs = side_by_side(request.files["cases"], own=options.own, **vars(request.case_options))
+        return Answer(
+            sheet_of_designs(designs), lambda: document_of_designs(designs), f"{len(designs.designs)} designs"
+        )
+
+    return Work(answer)

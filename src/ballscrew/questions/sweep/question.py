@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Annotated
 
-from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.band.question import BandOptions
 from ballscrew.questions.shared.log_options import Level, OnlyGiven, number_of_samples
 from ballscrew.questions.shared.options import Option
 
