@@ -26,8 +26,7 @@ from ballscrew.questions.compare.question import CompareOptions
 from ballscrew.questions.compensation.question import CompensationOptions
 from ballscrew.questions.condition.question import ConditionOptions
 from ballscrew.questions.duty.question import DutyOptions, TraceOptions
-from ballscrew.questions.fit.question import FitOptions
-from ballscrew.questions.fit_motion.question import FitMotionOptions
+from ballscrew.questions.fit.question import FitMotionOptions, FitOptions
 from ballscrew.questions.hand_over.question import HandOverOptions
 from ballscrew.questions.optimise.question import OptimiseOptions
 from ballscrew.questions.records import QUESTIONS

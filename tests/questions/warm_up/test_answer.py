@@ -15,7 +15,6 @@ from ballscrew.questions.warm_up import compute, verdicts
 from ballscrew.questions.warm_up.answer import WarmUpResults, document
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
-from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet
 from support.answers import without_unit
 from support.commands import ROOT
@@ -86,7 +85,7 @@ def test_every_number_has_a_unit(report):
 
 def test_self_heating_has_units():
     heating = self_heating(case_file.load(EXAMPLE, [], moves=True))
-    found = with_self_heating({"verdicts": []}, heating)
+    found = heating.within({"verdicts": []})
     assert found["results"]["self_heating"]["oil_temperature"] == heating.equilibrium.oil_temperature
     assert found["results"]["self_heating"].keys() == found["units"]["self_heating"].keys()
     assert found["units"]["self_heating"]["flooded_torque_given"] == "N m"

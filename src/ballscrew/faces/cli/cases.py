@@ -109,16 +109,15 @@ def _operating_point(case: Case, self_heating: bool) -> Answer:
     from ballscrew.questions.run.answer import document
     from ballscrew.questions.run.compute import run
     from ballscrew.questions.run.sheet import sheet
-    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
-    heating = None
-    if self_heating:
-        from ballscrew.questions.warm_up import self_heating as studies
+    if not self_heating:
+        result = run(case)
+        return Answer(sheet(result), lambda: document(result))
+    from ballscrew.questions.warm_up import self_heating as studies
 
-        heating = studies.self_heating(case)
-    result = run(case if heating is None else heating.warm)
-    records = () if heating is None else heating.records
-    return Answer(sheet(result, heating=records), lambda: with_self_heating(document(result), heating))
+    heating = studies.self_heating(case)
+    warm = run(heating.warm)
+    return Answer(sheet(warm, heating=heating.records), lambda: heating.within(document(warm)))
 
 
 def _run_rows(cases: OfRows[RowCase], output: Output, to: Path | None, *, keep_going: bool) -> None:
@@ -187,13 +186,12 @@ def _warm_band(case: Case, options: BandOptions, done: Done) -> Answer:
     from ballscrew.questions.band.sheet import sheet
     from ballscrew.questions.run.compute import run
     from ballscrew.questions.warm_up.self_heating import self_heating
-    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     heating = self_heating(case)
     report = compute.band(heating.warm, options, done, heat_samples(heating, only_given=options.only_given))
     return Answer(
         sheet(heating.warm, report, heating=heating.records),
-        lambda: with_self_heating(document(run(heating.warm), report), heating),
+        lambda: heating.within(document(run(heating.warm), report)),
     )
 
 

@@ -65,7 +65,7 @@ from ballscrew.physics.sizing import catalogue as shipped
 from ballscrew.questions import responses
 from ballscrew.questions.band import compute
 from ballscrew.questions.band.question import BandOptions
-from ballscrew.questions.catalogue import text
+from ballscrew.questions.catalogue import own_nut_document
 from ballscrew.questions.check.compute import with_nut_named
 from ballscrew.questions.hand_over.answer import targets
 from ballscrew.questions.optimise import need_schema
@@ -191,7 +191,7 @@ async def report(
 @post(router, "/own-nut", OwnNutBody, responses.OwnNut, is_quick=always)
 def own_nut(body: OwnNutBody, _: object) -> Response:
     """A case of few numbers, what was estimated in it: the document of ``ballscrew catalogue own --json``."""
-    return as_json(text.document(own_nut_of(body.numbers)))
+    return as_json(own_nut_document(own_nut_of(body.numbers)))
 
 
 @router.get("/catalogue", response_model=responses.Catalogue, responses=openapi.problems_of())

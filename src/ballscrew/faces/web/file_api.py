@@ -45,9 +45,8 @@ from ballscrew.faces.web.sent_files import written
 from ballscrew.files.torque_logs.preview import preview
 from ballscrew.questions import responses
 from ballscrew.questions.fit import answer, compute
-from ballscrew.questions.fit.log import read_options, steady_log
+from ballscrew.questions.fit.log import is_moving_log, read_options, steady_log
 from ballscrew.questions.fit.sheet import sheet
-from ballscrew.questions.fit_motion.log import is_moving
 from ballscrew.questions.hand_over import answer as hand_over_documents
 from ballscrew.questions.hand_over.answer import blocks, lines
 from ballscrew.questions.hand_over.question import HandOverOptions
@@ -99,7 +98,7 @@ def log(body: LogBody, _: Deadline) -> Response:
     """The columns of a log and what each is taken for, and the numbers of the case that may be fitted to it."""
     case = case_of(body.case)
     with written({"log": body.log}) as paths:
-        moving = is_moving(paths["log"], body.columns)
+        moving = is_moving_log(paths["log"], body.columns)
         columns = preview(paths["log"], body.columns)
     return as_json(answer.columns_document(columns, compute.candidates(case), moving=moving))
 
@@ -110,13 +109,13 @@ def fit(body: LogBody, done: Deadline) -> Response:
     case = case_of(body.case)
     options = read_options(case, dict(body))
     with written({"log": body.log}) as paths:
-        if is_moving(paths["log"], body.columns):
+        if is_moving_log(paths["log"], body.columns):
             remedy = "give a log of load, speed and torque; this one is for ballscrew fit on the command line"
             raise InputError(Fault("log", "is of a moving axis", paths["log"].name, remedy))
         steady = steady_log(case, paths["log"], options, done)
     assumed: Sequence[str] = ()
     if options.self_heating:
-        from ballscrew.questions.fit.warm_log import warm_log
+        from ballscrew.questions.fit.compute import warm_log
 
         steady, assumed = warm_log(case, steady, options.kind)
     report = dataclasses.replace(compute.fit(case, steady, options, done), assumed=assumed)

@@ -42,9 +42,8 @@ from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.axis.question import AxisOptions
-from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
-from ballscrew.questions.shared.elements_text import element_lines
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.check_lines import element_lines
+from ballscrew.questions.shared.declared import FINITE, envelope, from_attributes, table_of
 from ballscrew.questions.shared.question import Answer, Request, Work
 
 #: Places within the travel that the terminal shows.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew.questions.shared.log_options import Level, OnlyGiven, number_of_samples
+from ballscrew.questions.shared.options import Level, OnlyGiven, number_of_samples
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

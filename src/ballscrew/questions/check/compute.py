@@ -31,10 +31,8 @@ from ballscrew.questions.run import answer as run
 from ballscrew.questions.run.answer import results
 from ballscrew.questions.run.compute import NutState, Run, with_nut
 from ballscrew.questions.shared.check_lines import source_document, with_unlikely
-from ballscrew.questions.shared.envelope import numbers
-from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of
-from ballscrew.questions.shared.own_screws import tables_of_row
-from ballscrew.questions.warm_up.self_heating_document import with_self_heating
+from ballscrew.questions.shared.declared import numbers
+from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of, tables_of_row
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
@@ -362,7 +360,8 @@ def _computed(case: Case) -> Ratings | None:
 
 def document(checked: Checked) -> dict[str, Any]:
     """The document of one screw, in SI."""
-    return with_self_heating(_document(checked), checked.heating)
+    whole = _document(checked)
+    return whole if checked.heating is None else checked.heating.within(whole)
 
 
 def _document(checked: Checked) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from ballscrew.basis.output.sheet import Bar, Bars, Cell, Line, Lines, Number, S
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file, descriptions, project
+from ballscrew.engine.evaluation.comparison import Comparison
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.check.compute import Checked, checked, list_document, with_nut_named
@@ -23,7 +24,6 @@ from ballscrew.questions.compare.question import CompareOptions
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared.charts import colour_of
 from ballscrew.questions.shared.question import Answer, Done, Request, Work
-from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -186,18 +186,21 @@ def _models(request: Request, options: CompareOptions) -> Work:
     """The comparison of models and laws on one case."""
     case = request.load()
 
-    def answer(done: Done) -> Answer:
-        heating = None
-        if options.self_heating:
-            from ballscrew.questions.warm_up.self_heating import self_heating
+    def size(compared: Comparison) -> str:
+        return f"{len(compared.rows)} models and laws"
 
-            heating = self_heating(case)
-        warm = case if heating is None else heating.warm
-        compared = comparison(warm, done)
+    def answer(done: Done) -> Answer:
+        if not options.self_heating:
+            compared = comparison(case, done)
+            return Answer(sheet(case, compared), lambda: document(case, compared), size(compared))
+        from ballscrew.questions.warm_up.self_heating import self_heating  # its solvers are slow to import
+
+        heating = self_heating(case)
+        warm = comparison(heating.warm, done)
         return Answer(
-            sheet(warm, compared, () if heating is None else heating.records),
-            lambda: with_self_heating(document(warm, compared), heating),
-            f"{len(compared.rows)} models and laws",
+            sheet(heating.warm, warm, heating.records),
+            lambda: heating.within(document(heating.warm, warm)),
+            size(warm),
         )
 
     return Work(answer)

@@ -45,8 +45,7 @@ from ballscrew.files.torque_logs.torque_series import quantities
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.condition.question import ConditionOptions
 from ballscrew.questions.service.compute import distributions
-from ballscrew.questions.shared.declared import FINITE, from_attributes, parts_like
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.declared import FINITE, envelope, from_attributes, parts_like
 from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag
 from ballscrew.questions.shared.options import options_of
 from ballscrew.questions.shared.question import (

@@ -6,8 +6,7 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated
 
-from ballscrew.questions.shared.log_options import Inertia, KeepGoing, TorqueConstant, TorqueKind, headings
-from ballscrew.questions.shared.options import Option
+from ballscrew.questions.shared.options import Inertia, KeepGoing, Option, TorqueConstant, TorqueKind, headings
 from ballscrew.questions.shared.question import (
     CASE_OF_LOGS,
     Endpoint,

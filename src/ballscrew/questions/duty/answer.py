@@ -12,7 +12,7 @@ from ballscrew.questions.duty.compute import DutyReport
 from ballscrew.questions.duty.question import DutyOptions, TraceOptions
 from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.shared.check_lines import source_document
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.declared import envelope
 from ballscrew.questions.shared.question import Answer, Done, Request, Work
 
 if TYPE_CHECKING:  # loads xarray

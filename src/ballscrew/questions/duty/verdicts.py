@@ -19,7 +19,7 @@ from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.validity import CONDITIONS, NUT_CONDITIONS
 from ballscrew.physics.sizing.checks import Check, all_hold, verdict_of
 from ballscrew.questions.duty.compute import NUMBERS, OF_BATH, DutyReport
-from ballscrew.questions.duty.short_reversal import BACK, TRAVEL
+from ballscrew.questions.duty.parts import BACK, TRAVEL
 from ballscrew.questions.shared.check_lines import with_unlikely
 
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]

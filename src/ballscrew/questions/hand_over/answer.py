@@ -12,8 +12,7 @@ from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import TARGETS, Export, Option, WorstError, options_of
-from ballscrew.questions.shared.declared import from_attributes, parts_like
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.declared import envelope, from_attributes, parts_like
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -27,7 +27,7 @@ from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.listed_nut import PRELOADED
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.optimise.design_model import VARIABLES, DesignModel, DesignSpace, design_space
-from ballscrew.questions.select import candidates, requirement_checks
+from ballscrew.questions.select import candidates, requirements
 from ballscrew.questions.select.candidates import Starved
 from ballscrew.questions.select.need import Need, need_of
 from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_LENGTH, front, shaft_length
@@ -451,11 +451,11 @@ def _member(
     }
     checks = (
         *whole.checks,
-        *requirement_checks.by_loads(
+        *requirements.by_loads(
             need.requirements, case, numbers, preload=whole.nut.preload,
             largest_load=float(case.operation.axial_load), balls=whole.nut.loads,
         ),
-        *requirement_checks.of_friction(need.requirements, whole, None, numbers),
+        *requirements.of_friction(need.requirements, whole, None, numbers),
     )  # fmt: skip
     return Member(variables, searched, whole, checks, {name: numbers[name] for name in OBJECTIVES}, tables)
 

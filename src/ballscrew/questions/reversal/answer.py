@@ -65,8 +65,7 @@ from ballscrew.physics.moving_balls.friction_states import (
     of_elements,
 )
 from ballscrew.questions.reversal.question import ReversalOptions
-from ballscrew.questions.shared.declared import from_attributes
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.declared import envelope, from_attributes
 from ballscrew.questions.shared.question import Answer, Request, Work
 
 #: Shares of the swing whose places are told.

@@ -51,8 +51,7 @@ from ballscrew.physics.moving_balls.ripple import (
     torque_ripple,
 )
 from ballscrew.questions.ripple.question import RippleOptions
-from ballscrew.questions.shared.declared import from_attributes, parts_like
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.declared import envelope, from_attributes, parts_like
 from ballscrew.questions.shared.option_values import faults_named, flags_of
 from ballscrew.questions.shared.question import Answer, Done, Request, Work
 

@@ -1,4 +1,7 @@
-"""A candidate of a selection, declared once: JSON, its units and its schema follow from the annotations."""
+"""The answer of a selection: its candidates, declared once, the case file of one, and the work of a request.
+
+JSON, its units and its schema follow from the annotations.
+"""
 
 from __future__ import annotations
 
@@ -8,19 +11,26 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Length, Ratio, fields_of, quantities_of
 from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import case_file, inputs, project
+from ballscrew.cases.case_files.case_file import ASIDE, ESTIMATES
+from ballscrew.cases.case_files.named_calibration import NO_CALIBRATION, with_calibration
+from ballscrew.cases.case_files.opened_file import moved
+from ballscrew.cases.schema.case_schema import sections
+from ballscrew.cases.screw_tables.catalogue import assumed_fields
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
+from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import judged
 from ballscrew.questions.check import compute
 from ballscrew.questions.duty import verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport, FullBath
-from ballscrew.questions.select import case_text
-from ballscrew.questions.select.candidates import Candidate
+from ballscrew.questions.select.candidates import Candidate, assumes_preload, case_tables
 from ballscrew.questions.select.compute import BrakeOfNeed, Ranked, Selection, plan, select, verdict
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.question import CASE_FILE, ListOptions, SelectOptions, TableOptions
@@ -265,7 +275,7 @@ def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> 
             # of the cycle, or of the nut without load
             whole["warnings"] = [*documents(result.starved), *whole["warnings"]]
     return {
-        **declared.document(candidate(ranked, verdict(result), case_text.tables(result, need, model))),
+        **declared.document(candidate(ranked, verdict(result), tables_of(result, need, model))),
         "results": whole.pop("results"),
         **({} if result.duty is None else declared.document(of_motion(result.duty))),
         "checks": [compute.check_document(check) for check in result.checks],
@@ -338,7 +348,7 @@ def _write_case(path: Path, selection: Selection, shown: Sequence[Ranked], rank:
     """Write the case of a candidate, and return what is in it."""
     chosen = _chosen(path, selection, shown, rank)
     text = verdict(chosen.candidate)
-    case_text.save(path, selection, chosen, text)
+    save_case(path, selection, chosen, text)
     return f"{chosen.candidate.variant.label}, rank {chosen.rank}: {text}"
 
 
@@ -396,3 +406,76 @@ def _is_same(path: Path, other: Path) -> bool:
         return path.samefile(other)
     except (OSError, ValueError):  # no such file, or no name of one
         return False
+
+
+def tables_of(candidate: Candidate, need: Need, model: str | None = None) -> dict[str, Any]:
+    """The case file of a candidate; one that moves has its steady travel as operation, for all other questions.
+
+    ``model`` is the name of the one that it was judged by, in place of that of the need.
+    """
+    known, at = fields_of(OperatingState), candidate.case.operation
+    steady = {name: units.written(getattr(at, name), known[name]) for name in ("axial_load", "screw_speed")}
+    made = case_tables(need, candidate.variant)
+    if need.moves and "operation" not in made:
+        made["operation"] = steady
+    if model is not None:
+        made["model"] = {**made.get("model", {}), "name": model}
+    estimates = _estimates(candidate, need, made)
+    if estimates:
+        made[ESTIMATES] = estimates
+    if candidate.case.origins.calibration is not None:
+        return {**with_calibration(made, candidate.case.origins.calibration.name)}
+    return {**with_calibration(made, NO_CALIBRATION)} if "calibration" in made.get("model", {}) else made
+
+
+def save_case(to: Path, selection: Selection, chosen: Ranked, said: str) -> None:
+    """Write the case of a candidate; ``said`` is what its checks say."""
+    with atomic_write("--to", to) as path:
+        path.write_text(case_text(selection, chosen, said, folder=to.parent), encoding="utf-8")
+
+
+def case_text(selection: Selection, chosen: Ranked, said: str, *, folder: Path = Path()) -> str:
+    """The case of a candidate as TOML for a file in ``folder``; what was assumed stands in its comments."""
+    import tomlkit
+
+    candidate, need = chosen.candidate, selection.need
+    made = tables_of(candidate, need, selection.model)
+    if need.folder.resolve() != folder.resolve():
+        kept = made.pop(ASIDE, None)  # no command reads it
+        made = {**moved(made, need.folder, folder), **({} if kept is None else {ASIDE: kept})}
+    order = [name for name in (*sections(), *made) if name in made]
+    ordered = {name: made[name] for name in dict.fromkeys(order)}
+    head = [
+        f"{candidate.variant.label}: rank {chosen.rank} of {len(selection.ranked)} for {need.name}",
+        f"written by ballscrew select; checks: {said}",
+        *(f"assumed: {note}" for note in _assumed(candidate, need)),
+    ]
+    if ESTIMATES in made:
+        head.append("[estimates] repeats the values that were estimated: change one above, and it is yours")
+    comments = "".join(f"# {' '.join(line.split())}\n" for line in head)
+    return f"{comments}\n{tomlkit.dumps(ordered)}"
+
+
+def _estimates(candidate: Candidate, need: Need, made: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The values of a case that were estimated, by section: those of its need still hold if the case has them."""
+    variant = candidate.variant
+    places = [*need.assumed_oil]
+    if assumes_preload(need, variant):
+        places.append("nut.preload")
+    if need.length_is_stroke:
+        places.append("installation.unsupported_length")
+    if variant.file is not None:  # the numbers of the row stand in the case
+        given = need.tables.get("screw", {})
+        places += [f"screw.{name}" for name in sorted(assumed_fields(variant.row)) if name not in given]
+    estimates = {section: dict(values) for section, values in made.get(ESTIMATES, {}).items()}
+    for place in places:
+        section, _, name = place.partition(".")
+        if name in made.get(section, {}):
+            estimates.setdefault(section, {})[name] = made[section][name]
+    return estimates
+
+
+def _assumed(candidate: Candidate, need: Need) -> list[str]:
+    """What was assumed of the need and of the row, once each."""
+    of_run = () if candidate.run is None else candidate.run.assumed
+    return [*dict.fromkeys((*need.notes, *of_run))]

@@ -6,8 +6,7 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Annotated
 
-from ballscrew.questions.shared.log_options import KeepGoing
-from ballscrew.questions.shared.options import Option
+from ballscrew.questions.shared.options import KeepGoing, Option
 from ballscrew.questions.shared.question import NEED, Endpoint, Question, Sent
 
 Objectives = Annotated[

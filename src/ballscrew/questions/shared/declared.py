@@ -14,7 +14,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import types
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from typing import Annotated, Any, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -23,6 +23,9 @@ from ballscrew.basis.arrays import lazy
 from ballscrew.basis.field_docs import comments_of
 from ballscrew.basis.output.sheet import Cells
 from ballscrew.basis.quantities import Info, Quantity, Unit, info_of, unit_of
+from ballscrew.basis.records import Record, documents
+from ballscrew.cases.case_files import inputs
+from ballscrew.cases.case_files.case import Case
 
 T = TypeVar("T")
 
@@ -297,3 +300,45 @@ def units_of(cls: type) -> dict[str, Any]:
     """The SI units of the numbers of an answer of a class."""
     values = {name: _units(part, None) for name, part in parts_of(cls).items()}
     return {name: unit for name, unit in values.items() if unit}
+
+
+# -- the document of an answer about a case -------------------------------------------------------
+
+
+def envelope(
+    case: Case,
+    results: Any,
+    *,
+    named: str = "results",
+    units: Mapping[str, str] | None = None,
+    beside: Mapping[str, Any] | None = None,
+    assumed: Iterable[str] | None = None,
+    warnings: Iterable[Record] = (),
+    verdicts: Iterable[Record] = (),
+    checks: Iterable[Mapping[str, Any]] = (),
+    sources: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """The document of an answer, in SI.
+
+    ``units`` are those of numbers by other names than its own, ``beside`` are more answers by name, ``sources`` what
+    else it rests on.
+    """
+    return {
+        "inputs": inputs.inputs(case),
+        **numbers(**{named: results}, **(beside or {})),
+        **({} if units is None else {"units": dict(units)}),
+        **({} if assumed is None else {"assumed": list(assumed)}),
+        "warnings": documents(warnings),
+        "verdicts": documents(verdicts),
+        "checks": list(checks),
+        "provenance": {**inputs.of_case(case), **(sources or {})},
+    }
+
+
+def numbers(**answers: Any) -> dict[str, Any]:
+    """Answers by name, and the units of all: those of the results are not under their name."""
+    by_name = {name: units(answer) for name, answer in answers.items()}
+    return {
+        **{name: document(answer) for name, answer in answers.items()},
+        "units": by_name.pop("results", {}) | by_name,
+    }

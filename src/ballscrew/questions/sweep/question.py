@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from typing import Annotated
 
 from ballscrew.questions.band.question import BandOptions
-from ballscrew.questions.shared.log_options import Level, OnlyGiven, number_of_samples
-from ballscrew.questions.shared.options import Option
+from ballscrew.questions.shared.options import Level, OnlyGiven, Option, number_of_samples
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

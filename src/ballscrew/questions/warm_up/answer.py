@@ -25,7 +25,7 @@ from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import duty_tables
 from ballscrew.questions.shared import every_row
 from ballscrew.questions.shared.charts import SUFFIXES
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.declared import envelope
 from ballscrew.questions.shared.option_values import read
 from ballscrew.questions.shared.question import Answer, Done, Request, Work
 from ballscrew.questions.warm_up import compute, verdicts

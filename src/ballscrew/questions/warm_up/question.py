@@ -5,8 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew.questions.shared.log_options import Level, OnlyGiven, number_of_samples
-from ballscrew.questions.shared.options import Option
+from ballscrew.questions.shared.options import Level, OnlyGiven, Option, number_of_samples
 from ballscrew.questions.shared.question import Endpoint, Question
 
 
