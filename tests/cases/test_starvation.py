@@ -14,9 +14,8 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.laws.inlet import Inlet
-from ballscrew.questions.band import compute
+from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.band.answer import verdicts
-from ballscrew.questions.band.question import BandOptions
 from ballscrew.questions.check import compute as check
 from ballscrew.questions.check.sheet import of_rows
 from ballscrew.questions.duty import answer

@@ -8,9 +8,8 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.band import compute
+from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.band.answer import BandResults, document, verdicts
-from ballscrew.questions.band.question import BandOptions
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared import schemas
 from support.commands import ROOT

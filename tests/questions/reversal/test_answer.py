@@ -13,9 +13,8 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.moving_balls.friction_states import work_share
 from ballscrew.questions import responses
-from ballscrew.questions.reversal import answer
+from ballscrew.questions.reversal import ReversalOptions, answer
 from ballscrew.questions.reversal.answer import document, sheet
-from ballscrew.questions.reversal.question import ReversalOptions
 from support.answers import without_unit
 from support.commands import ROOT
 from support.reversals import STEADY, closed_form

@@ -19,7 +19,7 @@ def name(question):
 
 
 def test_every_question_that_is_a_record_is_listed():
-    files = [*Path(ballscrew.questions.__file__).parent.glob("*/question.py")]
+    files = [*Path(ballscrew.questions.__file__).parent.glob("*/__init__.py")]
     assert len(QUESTIONS) == sum(" = Question(\n" in path.read_text(encoding="utf-8") for path in files)
 
 

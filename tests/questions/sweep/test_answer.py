@@ -6,7 +6,7 @@ from ballscrew import evaluator
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.engines import KNOWN
-from ballscrew.questions.band.question import BandOptions
+from ballscrew.questions.band import BandOptions
 from ballscrew.questions.shared import schemas
 from ballscrew.questions.sweep import band, compute
 from ballscrew.questions.sweep.answer import SweepResults, document

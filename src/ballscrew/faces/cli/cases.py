@@ -13,10 +13,10 @@ import typer
 
 from ballscrew.faces.cli.options import CaseFile, KeepGoing, Output, Row, Rows, SelfHeating, Verbose, file_option
 from ballscrew.faces.cli.progress import log_on_stderr, print_engine, print_notes_of_rows, progress
-from ballscrew.questions.band.question import BandOptions
-from ballscrew.questions.check.question import CheckOptions, given
+from ballscrew.questions.band import BandOptions
+from ballscrew.questions.check import CheckOptions, given
 from ballscrew.questions.shared.question import Answer, CaseOptions, Done
-from ballscrew.questions.sweep.question import SweepOptions
+from ballscrew.questions.sweep import SweepOptions
 
 if TYPE_CHECKING:
     from ballscrew.cases.case_files.case import Case

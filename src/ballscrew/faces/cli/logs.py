@@ -12,7 +12,7 @@ import typer
 from ballscrew.faces.cli.cases import cases_of_rows, check_rows
 from ballscrew.faces.cli.options import Output, Row, Rows, Verbose, file_option
 from ballscrew.faces.cli.progress import print_engine, print_notes_of_rows, progress
-from ballscrew.questions.fit.question import FitMotionOptions, FitOptions
+from ballscrew.questions.fit import FitMotionOptions, FitOptions
 from ballscrew.questions.shared.options import options_of
 from ballscrew.questions.shared.question import MODEL_NAMES, CaseOptions
 

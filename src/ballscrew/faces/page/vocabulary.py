@@ -38,14 +38,14 @@ from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.listed_nut import NUTS
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.condition.question import ConditionOptions
+from ballscrew.questions.condition import ConditionOptions
 from ballscrew.questions.duty.compute import NUMBERS
-from ballscrew.questions.fit.question import FitOptions
-from ballscrew.questions.optimise.question import OptimiseOptions
-from ballscrew.questions.reversal.question import ReversalOptions
-from ballscrew.questions.ripple.question import RippleOptions
-from ballscrew.questions.sensitivity.question import SensitivityOptions
-from ballscrew.questions.service.question import ServiceOptions
+from ballscrew.questions.fit import FitOptions
+from ballscrew.questions.optimise import OptimiseOptions
+from ballscrew.questions.reversal import ReversalOptions
+from ballscrew.questions.ripple import RippleOptions
+from ballscrew.questions.sensitivity import SensitivityOptions
+from ballscrew.questions.service import ServiceOptions
 from ballscrew.questions.shared.charts import MECHANISM_COLOURS
 from ballscrew.questions.shared.options import Kind, vocabulary_of
 from ballscrew.questions.warm_up.compute import SERIES

@@ -35,8 +35,7 @@ from ballscrew.faces.sheets.report_blocks import (
     sentence,
 )
 from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
-from ballscrew.questions.band import compute, sheet
-from ballscrew.questions.band.question import BandOptions
+from ballscrew.questions.band import BandOptions, compute, sheet
 from ballscrew.questions.band.sheet import tornado
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.check.sheet import unlisted_ratings

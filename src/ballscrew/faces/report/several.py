@@ -26,10 +26,9 @@ from ballscrew.faces.sheets.report_blocks import (
     sentence,
 )
 from ballscrew.physics.sizing.checks import Check
+from ballscrew.questions.band import BandOptions, sheet
 from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import sheet
 from ballscrew.questions.band.compute import BandReport
-from ballscrew.questions.band.question import BandOptions
 from ballscrew.questions.band.sheet import tornado
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.compare import answer

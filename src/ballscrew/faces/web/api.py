@@ -63,17 +63,16 @@ from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.physics.sizing import catalogue as shipped
 from ballscrew.questions import responses
-from ballscrew.questions.band import compute
-from ballscrew.questions.band.question import BandOptions
+from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.catalogue import own_nut_document
 from ballscrew.questions.check.compute import with_nut_named
 from ballscrew.questions.hand_over.answer import targets
 from ballscrew.questions.optimise import need_schema
 from ballscrew.questions.shared import option_values, schemas
+from ballscrew.questions.sweep import SweepOptions
 from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep.band import INNER, with_band
-from ballscrew.questions.sweep.question import SweepOptions
 from ballscrew.questions.validate import answer as validation_documents
 from ballscrew.questions.validate import compute as validation
 

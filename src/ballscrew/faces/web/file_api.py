@@ -47,9 +47,9 @@ from ballscrew.questions import responses
 from ballscrew.questions.fit import answer, compute
 from ballscrew.questions.fit.log import is_moving_log, read_options, steady_log
 from ballscrew.questions.fit.sheet import sheet
+from ballscrew.questions.hand_over import HandOverOptions
 from ballscrew.questions.hand_over import answer as hand_over_documents
 from ballscrew.questions.hand_over.answer import blocks, lines
-from ballscrew.questions.hand_over.question import HandOverOptions
 from ballscrew.questions.shared import option_values
 
 #: Media types of a project, by its ``kind``.

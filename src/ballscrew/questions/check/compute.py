@@ -26,7 +26,7 @@ from ballscrew.physics.sizing.checks import Check, all_hold, checks, judged, ver
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
-from ballscrew.questions.check.question import flags
+from ballscrew.questions.check import flags
 from ballscrew.questions.run import answer as run
 from ballscrew.questions.run.answer import results
 from ballscrew.questions.run.compute import NutState, Run, with_nut

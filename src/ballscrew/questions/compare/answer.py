@@ -19,8 +19,8 @@ from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.check.compute import Checked, checked, list_document, with_nut_named
 from ballscrew.questions.check.sheet import cells
+from ballscrew.questions.compare import CompareOptions
 from ballscrew.questions.compare.compute import comparison, document
-from ballscrew.questions.compare.question import CompareOptions
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared.charts import colour_of
 from ballscrew.questions.shared.question import Answer, Done, Request, Work

@@ -43,7 +43,7 @@ from ballscrew.evidence.service.condition_values import Condition, Part, State
 from ballscrew.files.torque_logs import reading, torque_series
 from ballscrew.files.torque_logs.torque_series import quantities
 from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.questions.condition.question import ConditionOptions
+from ballscrew.questions.condition import ConditionOptions
 from ballscrew.questions.service.compute import distributions
 from ballscrew.questions.shared.declared import FINITE, envelope, from_attributes, parts_like
 from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag

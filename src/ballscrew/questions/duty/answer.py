@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from ballscrew.cases.schema.duty_schema import TRAJECTORY
 from ballscrew.physics.sizing.checks import Check
-from ballscrew.questions.duty import compute, verdicts
+from ballscrew.questions.duty import DutyOptions, TraceOptions, compute, verdicts
 from ballscrew.questions.duty.compute import DutyReport
-from ballscrew.questions.duty.question import DutyOptions, TraceOptions
 from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.shared.check_lines import source_document
 from ballscrew.questions.shared.declared import envelope

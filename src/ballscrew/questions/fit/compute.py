@@ -35,7 +35,7 @@ from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.questions.fit.question import DEFAULT_FREE, FitOptions
+from ballscrew.questions.fit import DEFAULT_FREE, FitOptions
 from ballscrew.questions.shared import every_row
 from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
 from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag

@@ -18,7 +18,7 @@ from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.evidence.moving_logs.reading import is_moving, read_moving
 from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.questions.fit.question import FitMotionOptions, FitOptions
+from ballscrew.questions.fit import FitMotionOptions, FitOptions
 from ballscrew.questions.shared import every_row
 from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
 from ballscrew.questions.shared.option_values import assignments, read

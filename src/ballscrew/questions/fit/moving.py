@@ -55,7 +55,7 @@ from ballscrew.evidence.moving_logs.motion_fit import (
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.evidence.moving_logs.power_law import SteadyFriction, steady_friction
 from ballscrew.evidence.moving_logs.screw_model import NAMES
-from ballscrew.questions.fit.question import FitMotionOptions
+from ballscrew.questions.fit import FitMotionOptions
 from ballscrew.questions.shared.declared import attributes
 from ballscrew.questions.shared.options import options_of
 

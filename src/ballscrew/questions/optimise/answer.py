@@ -10,9 +10,9 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import documents
 from ballscrew.physics.sizing.checks import judged
 from ballscrew.questions.check import compute
+from ballscrew.questions.optimise import OptimiseOptions
 from ballscrew.questions.optimise.compute import Member, Optimisation, optimise, plan, warnings
 from ballscrew.questions.optimise.design_model import VARIABLES, SearchOptions
-from ballscrew.questions.optimise.question import OptimiseOptions
 from ballscrew.questions.optimise.sheet import cost, sheet
 from ballscrew.questions.select.answer import OneObjective, need_document, objective, objectives, refuse_overwriting
 from ballscrew.questions.select.requirements import OBJECTIVES

@@ -64,7 +64,7 @@ from ballscrew.physics.moving_balls.friction_states import (
     fit_slip_elements,
     of_elements,
 )
-from ballscrew.questions.reversal.question import ReversalOptions
+from ballscrew.questions.reversal import ReversalOptions
 from ballscrew.questions.shared.declared import envelope, from_attributes
 from ballscrew.questions.shared.question import Answer, Request, Work
 

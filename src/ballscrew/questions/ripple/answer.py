@@ -50,7 +50,7 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
-from ballscrew.questions.ripple.question import RippleOptions
+from ballscrew.questions.ripple import RippleOptions
 from ballscrew.questions.shared.declared import envelope, from_attributes, parts_like
 from ballscrew.questions.shared.option_values import faults_named, flags_of
 from ballscrew.questions.shared.question import Answer, Done, Request, Work

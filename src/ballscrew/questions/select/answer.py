@@ -30,10 +30,10 @@ from ballscrew.physics.sizing.checks import judged
 from ballscrew.questions.check import compute
 from ballscrew.questions.duty import verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport, FullBath
+from ballscrew.questions.select import CASE_FILE, ListOptions, SelectOptions, TableOptions
 from ballscrew.questions.select.candidates import Candidate, assumes_preload, case_tables
 from ballscrew.questions.select.compute import BrakeOfNeed, Ranked, Selection, plan, select, verdict
 from ballscrew.questions.select.need import Need
-from ballscrew.questions.select.question import CASE_FILE, ListOptions, SelectOptions, TableOptions
 from ballscrew.questions.select.requirements import OBJECTIVES, Requirements
 from ballscrew.questions.select.sheet import cost, sheet
 from ballscrew.questions.shared import declared

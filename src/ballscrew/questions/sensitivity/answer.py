@@ -38,7 +38,7 @@ from ballscrew.engine.uncertainty.sensitivity import ANOTHER_METHOD, HALF, MEASU
 from ballscrew.engine.uncertainty.sobol import Estimate
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import MATERIALS
-from ballscrew.questions.sensitivity.question import SensitivityOptions
+from ballscrew.questions.sensitivity import SensitivityOptions
 from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, OneOf, envelope, from_attributes
 from ballscrew.questions.shared.question import Answer, Done, Request, Work
 

@@ -16,9 +16,8 @@ from ballscrew.engine.uncertainty.distributions import Normal
 from ballscrew.engine.uncertainty.uncertain_value import parse_uncertain
 from ballscrew.evidence.service.preload_change import PreloadChange
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate
-from ballscrew.questions.service import compute
+from ballscrew.questions.service import ReadingOptions, ServiceOptions, compute
 from ballscrew.questions.service.compute import TORQUE, Reading, ServiceReport, verdicts
-from ballscrew.questions.service.question import ReadingOptions, ServiceOptions
 from ballscrew.questions.service.sheet import sheet
 from ballscrew.questions.shared.declared import LEFT_OUT, envelope, from_attributes
 from ballscrew.questions.shared.option_values import read

@@ -33,7 +33,7 @@ from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.service.question import ReadingOptions, ServiceOptions
+from ballscrew.questions.service import ReadingOptions, ServiceOptions
 from ballscrew.questions.shared.charts import Numbers, some
 from ballscrew.questions.shared.option_values import faults_named, flags_of
 

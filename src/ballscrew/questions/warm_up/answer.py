@@ -28,9 +28,8 @@ from ballscrew.questions.shared.charts import SUFFIXES
 from ballscrew.questions.shared.declared import envelope
 from ballscrew.questions.shared.option_values import read
 from ballscrew.questions.shared.question import Answer, Done, Request, Work
-from ballscrew.questions.warm_up import compute, verdicts
+from ballscrew.questions.warm_up import DriftOptions, WarmUpOptions, compute, verdicts
 from ballscrew.questions.warm_up.compute import AT_START, PLACE, Equilibrium, Heat, OverTime, WarmUpReport
-from ballscrew.questions.warm_up.question import DriftOptions, WarmUpOptions
 from ballscrew.questions.warm_up.sheet import sheet
 
 if TYPE_CHECKING:
