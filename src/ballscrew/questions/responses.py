@@ -299,28 +299,6 @@ class ValidationEntry(Open):
     rows: list[ValidationRow]
 
 
-class Choice(Closed):
-    """A choice that a target has."""
-
-    name: str
-    default: str
-    meaning: str
-
-
-class Target(Closed):
-    """A target of a hand-over."""
-
-    name: str
-    meaning: str
-    options: list[Choice]
-
-
-class Targets(Closed):
-    """The targets of a hand-over."""
-
-    targets: list[Target]
-
-
 class SentContent(Closed):
     """A file of a hand-over, or a zip archive of several."""
 

@@ -141,6 +141,7 @@ def _check_band(is_named: bool, options: BandOptions, to: Path | None, self_heat
     """Raise :class:`~ballscrew.basis.errors.InputError` for options without a band, and a picture that cannot be."""
     from ballscrew.basis.errors import Fault, InputError, raise_if_any
     from ballscrew.questions.shared.charts import check_picture
+    from ballscrew.questions.shared.option_values import without_band
 
     values = {
         "--samples": options.samples,
@@ -149,13 +150,7 @@ def _check_band(is_named: bool, options: BandOptions, to: Path | None, self_heat
         "--to": to,
     }
     if not is_named:
-        raise_if_any(
-            [
-                Fault(name, "needs --band", str(value), "add --band")
-                for name, value in values.items()
-                if value is not None
-            ]
-        )
+        raise_if_any(without_band(values))
     if to is not None and self_heating:
         problem = "draws a curve over the speed, at each of which the oil has another temperature"
         raise InputError(Fault("--to", problem, str(to), "leave it out, or see ballscrew sweep --self-heating"))

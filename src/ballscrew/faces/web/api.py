@@ -66,7 +66,7 @@ from ballscrew.questions import responses
 from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.catalogue import own_nut_document
 from ballscrew.questions.check.compute import with_nut_named
-from ballscrew.questions.hand_over.answer import targets
+from ballscrew.questions.hand_over.answer import Targets, targets
 from ballscrew.questions.optimise import need_schema
 from ballscrew.questions.shared import option_values, schemas
 from ballscrew.questions.sweep import SweepOptions
@@ -264,7 +264,7 @@ _constant(
 _constant(
     "/targets",
     targets,
-    responses.Targets,
+    schemas.schema(Targets),
     "The targets of a hand-over, and the choices that each has.",
 )
 _constant(

@@ -6,12 +6,13 @@ import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePath
-from typing import Any
+from typing import Any, NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import TARGETS, Export, Option, WorstError, options_of
+from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import envelope, from_attributes, parts_like
 
 
@@ -34,21 +35,35 @@ def document(export: Export, case: Case, written: Sequence[PurePath]) -> dict[st
     return {**whole, "provenance": dict(export.provenance)}
 
 
+class Choice(NamedTuple):
+    """A choice that a target has."""
+
+    name: str
+    default: str
+    meaning: str
+
+
+class Target(NamedTuple):
+    """A target of a hand-over."""
+
+    name: str
+    meaning: str
+    options: Sequence[Choice]
+
+
+class Targets(NamedTuple):
+    """The targets of a hand-over."""
+
+    targets: Sequence[Target]
+
+
 def targets() -> dict[str, Any]:
     """The targets, and the choices that each has."""
-    return {
-        "targets": [
-            {
-                "name": name,
-                "meaning": target.meaning,
-                "options": [
-                    {"name": choice, "default": _written(option), "meaning": option.meaning}
-                    for choice, option in options_of(name).items()
-                ],
-            }
-            for name, target in TARGETS.items()
-        ]
+    choices = {
+        name: [Choice(choice, _written(option), option.meaning) for choice, option in options_of(name).items()]
+        for name in TARGETS
     }
+    return declared.document(Targets([Target(name, TARGETS[name].meaning, each) for name, each in choices.items()]))
 
 
 def _written(option: Option) -> str:

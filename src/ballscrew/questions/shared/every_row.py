@@ -6,9 +6,9 @@ import csv
 import dataclasses
 import importlib.util
 import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
@@ -129,16 +129,10 @@ def each(
     return OfRows(results, notes, interrupted)
 
 
-_DIGITS = 12
 #: Endings of files that are written.
 KINDS = (".csv", ".xlsx")
-
-
-class RowTable(NamedTuple):
-    """Headings, and the cells of each row below them."""
-
-    headings: Sequence[str]
-    rows: Sequence[Sequence[Any]]
+#: The rows of a table, the first of which has its headings.
+Rows: TypeAlias = Iterable[Sequence[Any]]
 
 
 # -- files ----------------------------------------------------------------------------------------
@@ -153,23 +147,23 @@ def check_path(to: Path) -> None:
     check_writable("--to", to)
 
 
-def write_csv(path: Path, table: RowTable) -> None:
-    """The rows of a table as CSV, below its headings."""
+def write_csv(path: Path, rows: Rows) -> None:
+    """The rows of a table as CSV."""
     with path.open("w", encoding="utf-8", newline="") as stream:
-        csv.writer(stream, lineterminator="\n").writerows([table.headings, *table.rows])
+        csv.writer(stream, lineterminator="\n").writerows(rows)
 
 
-def xlsx_bytes(tables: Mapping[str, RowTable]) -> bytes:
-    """A workbook with a sheet for each table, by title."""
+def xlsx_bytes(tables: Mapping[str, Rows], without_names: Container[str] = ()) -> bytes:
+    """A workbook with a sheet for each table, by title; the first column stays in sight, where it has names."""
     import xlsxwriter
 
     buffer = io.BytesIO()
-    workbook = xlsxwriter.Workbook(buffer, {"in_memory": True})
+    workbook = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": True})
     bold = workbook.add_format({"bold": True})
-    for title, table in tables.items():
+    for title, rows in tables.items():
         sheet = workbook.add_worksheet(title)
-        sheet.freeze_panes(1, 1)
-        for number, row in enumerate([table.headings, *table.rows]):
+        sheet.freeze_panes(1, 0 if title in without_names else 1)
+        for number, row in enumerate(rows):
             sheet.write_row(number, 0, row, bold if number == 0 else None)
         sheet.autofit()
     workbook.close()

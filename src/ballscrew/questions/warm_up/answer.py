@@ -26,7 +26,7 @@ from ballscrew.cases.case_files import duty_tables
 from ballscrew.questions.shared import every_row
 from ballscrew.questions.shared.charts import SUFFIXES
 from ballscrew.questions.shared.declared import envelope
-from ballscrew.questions.shared.option_values import read
+from ballscrew.questions.shared.option_values import read, without_band
 from ballscrew.questions.shared.question import Answer, Done, Request, Work
 from ballscrew.questions.warm_up import DriftOptions, WarmUpOptions, compute, verdicts
 from ballscrew.questions.warm_up.compute import AT_START, PLACE, Equilibrium, Heat, OverTime, WarmUpReport
@@ -207,7 +207,9 @@ def prepare(request: Request) -> Work:
     drift, cool_down = request.options(DriftOptions), request.written["cool_down"]
     rest = (compute.REST if drift.drift_cycle else 0.0) if cool_down is None else cool_down
     options = read(WarmUpOptions, {**request.written, "cool_down": rest})
-    raise_if_any(compute.option_faults(options.band, options.samples, options.level, options.only_given))
+    if not options.band:
+        of_band = {"--samples": options.samples, "--level": options.level, "--only-given": options.only_given or None}
+        raise_if_any(without_band(of_band))
     compute.check_hours(options.hours, options.cool_down)
     if drift.feed_share is not None and not drift.drift_cycle:
         raise InputError(Fault("--feed-share", "needs --drift-cycle", f"{drift.feed_share:g}", "add --drift-cycle"))
