@@ -76,9 +76,7 @@ def inertia(report: DutyReport) -> list[Record]:
         message = f"what turns has {whole} at the motor: {counted}"
         if missing := _not_given(report):
             message = f"{message}; not given: {missing}"
-    return [
-        Record("verdict.inertia", "inertia", message, severity="info", value=axis.turning_inertia, unit=_INERTIA.unit)
-    ]
+    return [Record("verdict.inertia", "inertia", message, value=axis.turning_inertia, unit=_INERTIA.unit)]
 
 
 def _part(report: DutyReport, name: str) -> str:
@@ -106,7 +104,7 @@ def _flank_changes(report: DutyReport) -> list[Record]:
     play = changes[0].lost_motion
     loses = f"the position loses the play of {units.shown(play, TRAVEL)}" if play else "nut.axial_play gives no play"
     message = f"the load changes its flank {len(changes)} times in a cycle, where {loses}: at {', '.join(places)}{more}"
-    return [Record("verdict.flank_changes", "lost_motion", message, value=play, limit=None, unit=TRAVEL.unit)]
+    return [Record("verdict.flank_changes", "lost_motion", message, value=play, unit=TRAVEL.unit)]
 
 
 def _brake(report: DutyReport) -> Record:

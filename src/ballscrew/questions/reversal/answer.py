@@ -210,9 +210,9 @@ class ReversalReport:
                 "have no memory of turning points: no elements have both the curve and the work of all strokes"
             )
             worst = max(fit.work_error for fit in self.slip_elements)
-            records.append(Record("reversal.work_of_elements", "slip_elements", text, severity="info", value=worst))
+            records.append(Record("reversal.work_of_elements", "slip_elements", text, value=worst))
         text = "the stiffness of the first hundredths of a degree is known to a factor of three"
-        records.append(Record("reversal.first_range", "spin_and_curvature", text, severity="info"))
+        records.append(Record("reversal.first_range", "spin_and_curvature", text))
         return [*records, *self.case.implausible()]
 
 

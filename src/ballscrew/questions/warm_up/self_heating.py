@@ -164,7 +164,6 @@ class SelfHeating:
             "verdict.self_heating",
             "lubricant.temperature",
             message,
-            severity="info",
             holds=True,
             value=end.oil_temperature,
             unit="K",
