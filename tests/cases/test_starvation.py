@@ -16,7 +16,7 @@ from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.laws.inlet import Inlet
 from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.band.answer import verdicts
-from ballscrew.questions.check import compute as check
+from ballscrew.questions.check import answer as check
 from ballscrew.questions.check.sheet import of_rows
 from ballscrew.questions.duty import answer
 from ballscrew.questions.duty.compute import duty

@@ -16,7 +16,7 @@ from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.own_nut import RATED
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.band.answer import BandResults
-from ballscrew.questions.check.compute import BothRatings, Geometry
+from ballscrew.questions.check.answer import BothRatings, Geometry
 from ballscrew.questions.compare.compute import ByRules, Compared
 from ballscrew.questions.condition.answer import ConditionResults
 from ballscrew.questions.duty.compute import DutyReport

@@ -16,7 +16,7 @@ from ballscrew.basis.output.sheet import Sheet
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import files, terminal, to_file
 from ballscrew.physics.equations import geometry
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check.answer import checked
 from ballscrew.questions.optimise import compute
 from ballscrew.questions.optimise.answer import document
 from ballscrew.questions.optimise.design_model import DesignModel, design_space, makeable_ratios

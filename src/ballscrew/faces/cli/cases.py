@@ -219,7 +219,7 @@ def check(
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.
     """
-    from ballscrew.questions.check.compute import Options, document, every_row, list_document, one
+    from ballscrew.questions.check.answer import Options, document, every_row, list_document, one
     from ballscrew.questions.check.sheet import of_rows, sheet
     from ballscrew.questions.shared.every_row import check_path
 
@@ -261,7 +261,7 @@ class _Screws(NamedTuple):
 def _screws(name: str | None, rows: Path | None, row: str | None, *, every: bool, to: Path | None) -> _Screws:
     """The screws by the names on the command line."""
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.check.compute import is_case
+    from ballscrew.questions.check.answer import is_case
 
     case = name if name is not None and rows is not None and is_case(name) else None
     if row is not None and case is None:

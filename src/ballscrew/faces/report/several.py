@@ -30,7 +30,7 @@ from ballscrew.questions.band import BandOptions, sheet
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.sheet import tornado
-from ballscrew.questions.check.compute import Checked, checked
+from ballscrew.questions.check.answer import Checked, checked
 from ballscrew.questions.compare import answer
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.run.sheet import meaning

@@ -20,7 +20,7 @@ from ballscrew.faces.web.endpoint_parts import as_bytes, cancellable, of_tables,
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue
 from ballscrew.questions import responses
-from ballscrew.questions.check.compute import with_nut_named
+from ballscrew.questions.check.answer import with_nut_named
 from ballscrew.questions.curves import Curve, curves
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.shared import schemas

@@ -65,7 +65,7 @@ from ballscrew.physics.sizing import catalogue as shipped
 from ballscrew.questions import responses
 from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.catalogue import own_nut_document
-from ballscrew.questions.check.compute import with_nut_named
+from ballscrew.questions.check.answer import with_nut_named
 from ballscrew.questions.hand_over.answer import Targets, targets
 from ballscrew.questions.optimise import need_schema
 from ballscrew.questions.shared import option_values, schemas

@@ -17,7 +17,7 @@ from ballscrew.cases.case_files import case_file, descriptions, project
 from ballscrew.engine.evaluation.comparison import Comparison
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.check.compute import Checked, checked, list_document, with_nut_named
+from ballscrew.questions.check.answer import Checked, checked, list_document, with_nut_named
 from ballscrew.questions.check.sheet import cells
 from ballscrew.questions.compare import CompareOptions
 from ballscrew.questions.compare.compute import comparison, document

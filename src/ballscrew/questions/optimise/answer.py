@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import documents
 from ballscrew.physics.sizing.checks import judged
-from ballscrew.questions.check import compute
+from ballscrew.questions.check.answer import check_document, list_document
 from ballscrew.questions.optimise import OptimiseOptions
 from ballscrew.questions.optimise.compute import Member, Optimisation, optimise, plan, warnings
 from ballscrew.questions.optimise.design_model import VARIABLES, SearchOptions
@@ -60,7 +60,7 @@ class Front:
 def document(optimisation: Optimisation) -> dict[str, Any]:
     """The document in SI; ``results`` and ``checks`` of a member are those of ``ballscrew check --json``."""
     space = optimisation.space
-    first = compute.list_document([optimisation.members[0].checked])[0] if optimisation.members else {}
+    first = list_document([optimisation.members[0].checked])[0] if optimisation.members else {}
     units = {name: unit for name, unit in first.get("units", {}).items() if name != "loads"}
     search = from_attributes(
         Search,
@@ -89,11 +89,11 @@ def document(optimisation: Optimisation) -> dict[str, Any]:
 
 
 def _member(member: Member) -> dict[str, Any]:
-    whole = compute.list_document([member.checked])[0]
+    whole = list_document([member.checked])[0]
     return {
         **declared.document(from_attributes(OneMember, member)),
         "results": whole["results"],
-        "checks": [compute.check_document(check) for check in member.checks],
+        "checks": [check_document(check) for check in member.checks],
         "judged": judged(member.checks),
         **{name: part for name, part in whole.items() if name not in _LEFT_OUT},
         "case": dict(member.case),

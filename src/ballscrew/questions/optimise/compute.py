@@ -25,7 +25,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.listed_nut import PRELOADED
-from ballscrew.questions.check.compute import Checked, checked
+from ballscrew.questions.check.answer import Checked, checked
 from ballscrew.questions.optimise.design_model import VARIABLES, DesignModel, DesignSpace, design_space
 from ballscrew.questions.select import candidates, requirements
 from ballscrew.questions.select.candidates import Starved

@@ -27,7 +27,7 @@ from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import judged
-from ballscrew.questions.check import compute
+from ballscrew.questions.check.answer import check_document, list_document
 from ballscrew.questions.duty import verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport, FullBath
 from ballscrew.questions.select import CASE_FILE, ListOptions, SelectOptions, TableOptions
@@ -200,7 +200,7 @@ def document(selection: Selection, listed: Sequence[Ranked] | None = None) -> di
     Candidates are those ``listed``, or all of them.
     """
     first = next((each.candidate for each in selection.ranked if each.candidate.complete), None)
-    known: dict[str, Any] = {} if first is None else compute.list_document([first.checked])[0]["units"]
+    known: dict[str, Any] = {} if first is None else list_document([first.checked])[0]["units"]
     known.pop("loads", None)
     best, moves = selection.best, selection.need.moves
     return {
@@ -267,7 +267,7 @@ def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> 
     result = ranked.candidate
     whole: dict[str, Any] = {"results": {}, "verdicts": [], "warnings": [], "assumed": []}
     if result.run is not None:
-        whole = compute.list_document([result.run])[0]
+        whole = list_document([result.run])[0]
         if result.duty is not None:  # of the cycle, and not of steady travel
             for name, more in (("verdicts", verdicts.inertia), ("warnings", verdicts.inertia_warnings)):
                 whole[name] = [one for one in whole[name] if one["id"] != STARVED] + documents(more(result.duty))
@@ -278,7 +278,7 @@ def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> 
         **declared.document(candidate(ranked, verdict(result), tables_of(result, need, model))),
         "results": whole.pop("results"),
         **({} if result.duty is None else declared.document(of_motion(result.duty))),
-        "checks": [compute.check_document(check) for check in result.checks],
+        "checks": [check_document(check) for check in result.checks],
         "judged": judged(result.checks),
         **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
     }

@@ -28,7 +28,7 @@ from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.installation import Installation
 from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED, lists_preload
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
-from ballscrew.questions.check.compute import Checked, checked, checks_by_loads
+from ballscrew.questions.check.answer import Checked, checked, checks_by_loads
 from ballscrew.questions.duty import compute, verdicts
 from ballscrew.questions.duty.compute import DutyReport
 from ballscrew.questions.select import requirements

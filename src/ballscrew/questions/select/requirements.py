@@ -33,7 +33,7 @@ from ballscrew.physics.friction import directions
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.rigidity import AxialRigidity
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.check.compute import Checked
+from ballscrew.questions.check.answer import Checked
 from ballscrew.questions.duty.compute import DutyReport
 
 #: What the load may do with the screw: drive it or not, must drive it, must not.

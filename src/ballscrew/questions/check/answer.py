@@ -1,4 +1,4 @@
-"""Checks of a screw: from a catalogue row or a case to friction, ratings, life and limits."""
+"""Checks of a screw: from a catalogue row or a case to friction, ratings, life and limits; their document."""
 
 from __future__ import annotations
 
