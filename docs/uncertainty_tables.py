@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ballscrew.cases.case_files import case_file
-from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
+from ballscrew.engine.uncertainty.uncertain_value import JUDGEMENT, DefaultUncertainty, default_uncertainties
 from ballscrew.evidence.validation.entries import Entry, Point, may_be_fitted
 from ballscrew.faces.sheets import pictures
 from ballscrew.physics.components.oil_grades import TEMPERATURE

@@ -8,7 +8,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, descriptions, nut_tables
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.ratings import ratings_of

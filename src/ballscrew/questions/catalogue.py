@@ -9,7 +9,7 @@ from typing import Any
 import tomlkit
 
 from ballscrew.basis import units
-from ballscrew.basis.output.wrapping import aligned
+from ballscrew.basis.output.text import aligned
 from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.basis.records import documents
 from ballscrew.basis.version import __version__

@@ -6,9 +6,9 @@ import math
 from pathlib import Path
 
 import pytest
+from ballscrew.basis.output.text import WIDTH
 
 import ballscrew as bs
-from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.equations import life

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ballscrew.faces.page import kinds
-from ballscrew.faces.report.contact_geometry import drawn_ball
+from ballscrew.faces.report.drawing_contact import drawn_ball
 from ballscrew.faces.report.drawing_section import BALL, RADIUS, Groove
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, judged, outputs

@@ -18,9 +18,8 @@ import pypdf
 import pytest
 
 import ballscrew as bs
-from ballscrew.basis import units
+from ballscrew.basis import references, units
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.output import bibliography
 from ballscrew.basis.output.sheet import Number, Share
 from ballscrew.basis.output.sheet import words as words_of
 from ballscrew.basis.quantities import fields_of, quantities_of
@@ -28,9 +27,8 @@ from ballscrew.basis.references import bibliography as entries
 from ballscrew.basis.units import DIGITS
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import NO_ORIGINS, Origins
-from ballscrew.cases.case_files.inputs import references
-from ballscrew.cases.case_files.makers_rules import by_rules
-from ballscrew.cases.case_files.named_calibration import vendor_rows_like
+from ballscrew.cases.case_files.descriptions import references
+from ballscrew.cases.case_files.named_calibration import by_rules, vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.cli import sharing
 from ballscrew.faces.report import contents, curve_figures, input_tables
@@ -712,20 +710,20 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch, tmp_path):
     ],
 )
 def test_bibtex_is_read_as_text(written, read):
-    assert bibliography.plain(written) == read
+    assert references.plain(written) == read
 
 
 def test_every_source_can_be_read():
-    found = bibliography.sources(entries())
+    found = references.sources(entries())
     assert [source.key for source in found] == list(entries())
     for source in found:
         assert not re.search(r"[{}\\]", source.words)
         assert re.match(r".+: .+\.$", source.words)
     assert found[0].words.startswith("D. Olaru, G. C. Puiu, L. C. Balan, V. Puiu (2005): A New Model to Estimate")
-    assert bibliography.of_catalogue("Rexroth R310RU 3301 (2006.02)") == ["Rexroth2006"]
-    assert bibliography.of_catalogue("HIWIN S99TE20-1610") == ["HIWIN2016"]
+    assert references.of_catalogue("Rexroth R310RU 3301 (2006.02)") == ["Rexroth2006"]
+    assert references.of_catalogue("HIWIN S99TE20-1610") == ["HIWIN2016"]
     for unknown in ("rows.csv row 2", "", "My catalogue", "ACME 2006", "HIWIN R310RU 3301 (2006.02)", "a 3"):
-        assert bibliography.of_catalogue(unknown) == [], unknown
+        assert references.of_catalogue(unknown) == [], unknown
 
 
 def test_columns_are_alike_in_length_and_keep_the_order():

@@ -14,7 +14,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Sheet
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.faces.sheets import files, terminal, to_file
+from ballscrew.faces.sheets import files, terminal
 from ballscrew.physics.equations import geometry
 from ballscrew.questions.check.answer import checked
 from ballscrew.questions.optimise import compute
@@ -259,7 +259,7 @@ def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     assert "no design within the bounds passes all checks" in terminal.text(sheet(found))
     assert json.loads(json.dumps(plain(document(found))))["candidates"] == []
     files.write(tmp_path / "empty.csv", Sheet("", [of_optimisation(found.members)]))
-    to_file.write(tmp_path / "empty.svg", sheet(found))
+    files.write(tmp_path / "empty.svg", sheet(found))
 
 
 @needs_pymoo

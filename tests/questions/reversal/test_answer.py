@@ -5,10 +5,10 @@ import math
 
 import numpy as np
 import pytest
+from ballscrew.basis.output.text import WIDTH
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.sheet import Chart
-from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.moving_balls.friction_states import work_share

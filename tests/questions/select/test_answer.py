@@ -5,7 +5,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
-from ballscrew.cases.case_files.makers_rules import by_rules
+from ballscrew.cases.case_files.named_calibration import by_rules
 from ballscrew.faces.sheets import files
 from ballscrew.questions.responses import Candidate, Select
 from ballscrew.questions.select.answer import MotorTorque, OfMotion, OneCandidate, document

@@ -5,7 +5,7 @@ import pytest
 from ballscrew import evaluator
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
-from ballscrew.engine.evaluation.engines import KNOWN
+from ballscrew.engine.evaluation.recordings import KNOWN
 from ballscrew.questions.band import BandOptions
 from ballscrew.questions.shared import schemas
 from ballscrew.questions.sweep import band, compute

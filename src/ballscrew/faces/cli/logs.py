@@ -99,9 +99,9 @@ def fit(
     else:
         sheet, size = _fit_torques(case, tables, loaded, log, written, output, to, verbose=verbose)
     if picture is not None:
-        from ballscrew.faces.sheets import to_file
+        from ballscrew.faces.sheets import files
 
-        to_file.write(picture, sheet, option="--picture")
+        files.write(picture, sheet, option="--picture")
         output.note(f"{picture}: {size} rows")
 
 

@@ -51,11 +51,11 @@ def _paths(given: Any) -> Sequence[Path]:
 
 def _check_files(paths: Sequence[Path], flag: str, own_kinds: Sequence[str]) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` now for files that could not be written later."""
-    from ballscrew.faces.sheets import to_file
+    from ballscrew.faces.sheets import files
     from ballscrew.questions.shared.charts import check_picture
 
     if flag != "picture":
-        to_file.check(paths, own_kinds)
+        files.check(paths, own_kinds)
         return
     for path in paths:
         check_picture(path, "--picture")

@@ -10,8 +10,7 @@ from urllib.parse import urlsplit
 
 from pydantic import BaseModel, ConfigDict
 
-from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.duty_cycle.axis import Axis, Motor
 from ballscrew.axis.motion.profiles import SCurve, Segment, Sine
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
@@ -28,15 +27,14 @@ from ballscrew.physics.components.nut import Bodies, Scatter
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.model import LAWS, FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.moving_balls.friction_states import Dahl, LuGre
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.condition import ConditionOptions
 from ballscrew.questions.duty.compute import NUMBERS

@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.basis import references
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.output import bibliography
 from ballscrew.basis.output.sheet import Table as SheetTable
 from ballscrew.basis.records import Record
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.inputs import references
+from ballscrew.cases.case_files.descriptions import references
 from ballscrew.faces.report import input_tables
-from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.curves import Curves, curves
 from ballscrew.faces.report.drawing import drawing
+from ballscrew.faces.report.drawing_contact import drawn_ball
 from ballscrew.faces.sheets import report_blocks
 from ballscrew.faces.sheets.report_blocks import (
     Block,
@@ -34,7 +34,7 @@ from ballscrew.faces.sheets.report_blocks import (
     Table,
     sentence,
 )
-from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
+from ballscrew.physics.sizing.makers_tables import GENERAL, speed_limit_of
 from ballscrew.questions.band import BandOptions, compute, sheet
 from ballscrew.questions.band.sheet import tornado
 from ballscrew.questions.check.answer import Checked, checked
@@ -353,7 +353,7 @@ def origins(case: Case, inputs: list[Table]) -> Paragraph:
 def sources(case: Case, band_report: compute.BandReport) -> list[tuple[str, str]]:
     """Sources of a case and its band, in words, each with its address."""
     keys = [*references(case), *_OF_CHECKS, *(one.source for one in band_report.inputs.values())]
-    keys += [] if case.origins.row is None else bibliography.of_catalogue(case.origins.row.source)
+    keys += [] if case.origins.row is None else references.of_catalogue(case.origins.row.source)
     if case.limits.diameter_speed_product is None:
         keys += (speed_limit_of(case.origins.row) or GENERAL).sources
-    return [(f"{source.key}: {source.words}", source.link) for source in bibliography.sources(keys)]
+    return [(f"{source.key}: {source.words}", source.link) for source in references.sources(keys)]

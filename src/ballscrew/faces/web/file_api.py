@@ -42,7 +42,7 @@ from ballscrew.faces.web.bodies import (
 from ballscrew.faces.web.endpoint_parts import always, as_json, heavy, post, with_sheet
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
-from ballscrew.files.torque_logs.preview import preview
+from ballscrew.files.torque_logs.reading import preview
 from ballscrew.questions import responses
 from ballscrew.questions.fit import answer, compute
 from ballscrew.questions.fit.log import is_moving_log, read_options, steady_log

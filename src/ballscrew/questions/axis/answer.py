@@ -14,7 +14,7 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.supports.stiffness import SHARES, AxisStiffness, stiffness_over_stroke
 from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError, overflow_as_input_error
 from ballscrew.basis.output.sheet import (
     Axis,
     Band,
@@ -36,7 +36,6 @@ from ballscrew.basis.output.sheet import (
     verdict_lines,
     warning_lines,
 )
-from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, Unit, quantities_of
 from ballscrew.basis.records import Record, Severity
 from ballscrew.cases.case_files import descriptions

@@ -13,7 +13,7 @@ from ballscrew.basis.quantities import Info, Quantity, Ratio, Unit, quantities_o
 from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.makers_rules import by_rules
+from ballscrew.cases.case_files.named_calibration import by_rules
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration

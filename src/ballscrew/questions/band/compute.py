@@ -8,27 +8,26 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.axis.thermal.equilibrium import equilibrium
 from ballscrew.axis.thermal.surroundings import PREFIX
+from ballscrew.axis.thermal.warm_up import equilibrium
 from ballscrew.axis.thermal.warm_up_band import sampled
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import Fault, InputError, overflow_as_input_error
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.makers_rules import make_of
+from ballscrew.cases.case_files.named_calibration import make_of
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.engine.evaluation.comparison import Candidate
 from ballscrew.engine.uncertainty import bands
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.engine.uncertainty.bands import Band, BandCurve
-from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal
 from ballscrew.engine.uncertainty.monte_carlo import Joint, JointParts, JointSamples, sobol_sequence
+from ballscrew.engine.uncertainty.uncertain_value import JUDGEMENT
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, calibrations, is_of_maker
-from ballscrew.physics.friction.law_names import LAWS, coefficients
+from ballscrew.physics.friction.model import LAWS, coefficients
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import preload_of
 from ballscrew.questions.band import BandOptions

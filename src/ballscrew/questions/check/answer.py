@@ -12,20 +12,17 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantities_of
 from ballscrew.basis.records import Record, Severity, documents
-from ballscrew.cases.case_files import case_file, descriptions, inputs, nut_tables
+from ballscrew.cases.case_files import case_file, descriptions, nut_tables
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.schema.option_faults import OPTIONS, in_options
-from ballscrew.cases.schema.reader import Reader
+from ballscrew.cases.schema.reader import OPTIONS, Reader, in_options
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_of
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.check_table import half_loads
-from ballscrew.physics.sizing.checks import Check, all_hold, checks, judged, verdict_at_point
-from ballscrew.physics.sizing.dn_limits import speed_limit_of
-from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
-from ballscrew.physics.sizing.ratings import Ratings, ratings_of
+from ballscrew.physics.sizing.checks import Check, all_hold, checks, half_loads, judged, verdict_at_point
+from ballscrew.physics.sizing.makers_tables import speed_limit_of
+from ballscrew.physics.sizing.ratings import PRELOADED, Ratings, lists_preload, ratings_of
 from ballscrew.questions.check import flags
 from ballscrew.questions.run import answer as run
 from ballscrew.questions.run.answer import results
@@ -369,7 +366,7 @@ def _document(checked: Checked) -> dict[str, Any]:
     return {
         "name": checked.name,
         "nut": kind_of(checked.nut.nut),
-        "inputs": inputs.inputs(case),
+        "inputs": descriptions.inputs(case),
         **numbers(results=results(checked.run), **beside),
         "checks": [check_document(check) for check in checked.checks],
         "judged": judged(checked.checks),
@@ -378,7 +375,7 @@ def _document(checked: Checked) -> dict[str, Any]:
         "verdicts": documents(checked.verdicts),
         "assumed": list(checked.assumed),
         "warnings": documents(checked.run.warnings),
-        "provenance": inputs.of_case(case),
+        "provenance": descriptions.of_case(case),
     }
 
 

@@ -11,7 +11,7 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.physics.friction.starvation import FULL_BATH
+from ballscrew.physics.friction.validity import FULL_BATH
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check.answer import Checked, Rated
 from ballscrew.questions.run import sheet as run_sheet

@@ -12,16 +12,13 @@ import numpy as np
 from ballscrew.axis.duty_cycle import duty as axis_duty
 from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.brake import Brake, brake_of
-from ballscrew.axis.duty_cycle.cycle_life import CycleLife
-from ballscrew.axis.duty_cycle.drive import MotorCheck
+from ballscrew.axis.duty_cycle.drive_sizing import CycleLife, MotorCheck, VendorRule
 from ballscrew.axis.duty_cycle.duty import Duty
-from ballscrew.axis.duty_cycle.vendor_rule import VendorRule
 from ballscrew.axis.motion.profiles import Motion
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.motion.trajectory import HALF_WIDTHS, Trajectory
 from ballscrew.basis.arrays import lazy
-from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import Fault, InputError, overflow_as_input_error
 from ballscrew.basis.quantities import (
     AngularSpeed,
     Duration,
@@ -39,15 +36,13 @@ from ballscrew.basis.quantities import (
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.physics.components.nut import OversizeBallNut
-from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.operating_state import FrictionElement, OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.friction.element import FrictionElement
 from ballscrew.physics.friction.loaded_balls import loads_of
-from ballscrew.physics.sizing.check_table import NOT_CHECKED, NOT_JUDGED, UNJUDGED
-from ballscrew.physics.sizing.checks import Check, checks
-from ballscrew.physics.sizing.dn_limits import speed_limit_of
+from ballscrew.physics.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
+from ballscrew.physics.sizing.makers_tables import speed_limit_of
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.duty.parts import (
     TORQUE_PEAK,

@@ -40,7 +40,7 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.physics.friction.starvation import FULL_BATH
+from ballscrew.physics.friction.validity import FULL_BATH
 from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, DutyReport, cause_of, words_of
 from ballscrew.questions.duty.parts import PhaseNumbers
 from ballscrew.questions.duty.verdicts import verdicts, warnings

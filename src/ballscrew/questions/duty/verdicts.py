@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.drive import MotorCheck
+from ballscrew.axis.duty_cycle.drive_sizing import MotorCheck
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.motion.trajectory import Trajectory
 from ballscrew.axis.supports.bearing import DIRECTION
@@ -17,7 +17,7 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.basis.records import Record, Severity
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.validity import CONDITIONS, NUT_CONDITIONS
 from ballscrew.physics.sizing.checks import Check, all_hold, verdict_of
 from ballscrew.questions.duty.compute import NUMBERS, OF_BATH, DutyReport
@@ -56,10 +56,8 @@ def starved(report: DutyReport) -> list[Record]:
     if not duty.starved:
         return []
     given = {"torque_peak": duty.torque_peak, "screw_torque": duty.screw_torque, "energy_lost": duty.energy_lost}
-    numbers = [
-        starvation.BothTorques(OF_BATH[name], value, getattr(report.bath, name)) for name, value in given.items()
-    ]
-    return starvation.records(numbers)
+    numbers = [validity.BothTorques(OF_BATH[name], value, getattr(report.bath, name)) for name, value in given.items()]
+    return validity.records(numbers)
 
 
 def inertia(report: DutyReport) -> list[Record]:
@@ -169,7 +167,7 @@ def _motor(report: DutyReport) -> list[Record]:
     failed = [check for check in report.motor_check.checks if check.holds is False]
     names = ", ".join(check.name.removeprefix("motor_").replace("_", " ") for check in failed)
     message = f"the motor does not suffice: {names}" if failed else "the motor suffices"
-    if starvation.FULL_BATH in report.motor_check.torques:
+    if validity.FULL_BATH in report.motor_check.torques:
         message = f"{message}; judged by the larger torque: {_conditions(report.motor_check)}"
     severity: Severity = "error" if failed else "info"
     return [Record("verdict.motor", "motor", message, severity=severity, holds=not failed)]

@@ -13,14 +13,14 @@ from ballscrew.basis.quantities import Info, TemperatureDifference, Torque
 from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.fit_result import Estimate, Trend
 from ballscrew.evidence.calibration.identifiability import Combination
-from ballscrew.evidence.calibration.oil_temperature import TEMPERATURE_ERROR
+from ballscrew.evidence.calibration.response import TEMPERATURE_ERROR
 from ballscrew.files.tables.headings import NO_COLUMN
 from ballscrew.files.torque_logs.columns import COLUMNS
-from ballscrew.files.torque_logs.preview import Preview, SeenColumn
+from ballscrew.files.torque_logs.reading import Preview, SeenColumn
 from ballscrew.questions.fit.compute import Candidate, FitReport
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import Column, from_attributes

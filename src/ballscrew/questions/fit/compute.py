@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
+from ballscrew.axis.duty_cycle.duty import to_and_fro
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.thermal.friction_map import COLDEST, HOTTEST, FrictionMap
 from ballscrew.axis.thermal.network import network_of, steady
@@ -23,15 +23,14 @@ from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
+from ballscrew.engine.uncertainty.uncertain_value import default_distributions
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
-from ballscrew.evidence.calibration.constant_torque import constant_torque_missed
+from ballscrew.evidence.calibration.diagnostics import shown_with_interval
+from ballscrew.evidence.calibration.fit import constant_torque_missed
 from ballscrew.evidence.calibration.fit import fit as fitted
 from ballscrew.evidence.calibration.next_test import NextTest
-from ballscrew.evidence.calibration.oil_temperature import uses_temperatures
-from ballscrew.evidence.calibration.plausibility import shown_with_interval
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
-from ballscrew.evidence.calibration.response import resolve_input
+from ballscrew.evidence.calibration.response import resolve_input, uses_temperatures
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE

@@ -40,7 +40,7 @@ from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.records import documents
 from ballscrew.basis.references import documentation, keys_in
 from ballscrew.basis.version import __version__
-from ballscrew.cases.case_files import inputs
+from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.moving_logs.motion_fit import (
@@ -102,13 +102,13 @@ def document(case: Case, motion_fit: MotionFit) -> dict[str, Any]:
         "checks": [],
         "warnings": documents(motion_fit.warning_records),
         "rows": _rows_document(motion_fit),
-        "inputs": inputs.inputs(case),
+        "inputs": descriptions.inputs(case),
         "provenance": {
-            **inputs.of_case(case),
+            **descriptions.of_case(case),
             "log": name,
             "sha256": digest,
             "settings": settings,
-            "references": list(dict.fromkeys([*inputs.references(case), *own])),
+            "references": list(dict.fromkeys([*descriptions.references(case), *own])),
         },
     }
 

@@ -9,7 +9,7 @@ from pathlib import Path, PurePath
 from typing import Any, NamedTuple
 
 from ballscrew.basis import units
-from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.output.text import wrapped
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import TARGETS, Export, Option, WorstError, options_of
 from ballscrew.questions.shared import declared

@@ -19,21 +19,25 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.evaluation.recordings import Engine
 from ballscrew.engine.uncertainty.monte_carlo import Sampler, sobol_sequence
 from ballscrew.physics.components.materials import STEEL_DENSITY
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.equations.shaft import shaft_inertia
 from ballscrew.physics.sizing.catalogue import CatalogueRow, printed_rows
-from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME, loads_at_point
-from ballscrew.physics.sizing.checks import values_of_installation, values_of_limits
-from ballscrew.physics.sizing.dn_limits import GENERAL
+from ballscrew.physics.sizing.checks import (
+    CHECKS,
+    RUNNING_TIME,
+    loads_at_point,
+    values_of_installation,
+    values_of_limits,
+)
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED
-from ballscrew.physics.sizing.ratings import RatedGeometry, ratings_of
+from ballscrew.physics.sizing.makers_tables import GENERAL
+from ballscrew.physics.sizing.ratings import NUTS, PRELOADED, RatedGeometry, ratings_of
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import (
     ALLOWED,

@@ -26,7 +26,7 @@ from ballscrew.basis.output.sheet import (
     lines,
     warning_lines,
 )
-from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.output.text import wrapped
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.questions.check.sheet import cells
 from ballscrew.questions.optimise.compute import Member, Optimisation, Plan, warnings

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ballscrew.basis.output.sheet import sentence
-from ballscrew.basis.output.wrapping import aligned
+from ballscrew.basis.output.text import aligned
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files import case_file, case_text
 from ballscrew.cases.case_files.case import Case

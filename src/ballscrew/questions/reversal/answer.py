@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError, overflow_as_input_error
 from ballscrew.basis.output.sheet import (
     Axis,
     Cell,
@@ -32,7 +32,6 @@ from ballscrew.basis.output.sheet import (
     warning_lines,
     words,
 )
-from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import (
     Angle,
     Info,
@@ -47,7 +46,7 @@ from ballscrew.basis.quantities import (
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
-from ballscrew.engine.sweeps.reversal import PARTS, QUANTITIES
+from ballscrew.engine.sweeps.sweep import PARTS, QUANTITIES
 from ballscrew.physics.moving_balls import reversal as moving_balls
 from ballscrew.physics.moving_balls.friction_states import (
     Dahl,

@@ -8,8 +8,7 @@ from typing import Annotated, Any, NamedTuple
 
 from ballscrew.basis.quantities import Info, Ratio, Torque, fields_of, quantities_of
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.makers_rules import BY_RULE, by_rules
-from ballscrew.cases.case_files.named_calibration import vendor_rows_like
+from ballscrew.cases.case_files.named_calibration import BY_RULE, by_rules, vendor_rows_like
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
 from ballscrew.physics.laws.contact import RaceState

@@ -16,7 +16,7 @@ from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Length, Ratio, fields_of, quantities_of
 from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import case_file, inputs, project
+from ballscrew.cases.case_files import case_file, descriptions, project
 from ballscrew.cases.case_files.case_file import ASIDE, ESTIMATES
 from ballscrew.cases.case_files.named_calibration import NO_CALIBRATION, with_calibration
 from ballscrew.cases.case_files.opened_file import moved
@@ -24,7 +24,7 @@ from ballscrew.cases.schema.case_schema import sections
 from ballscrew.cases.screw_tables.catalogue import assumed_fields
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.friction.starvation import STARVED
+from ballscrew.physics.friction.validity import STARVED
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import judged
 from ballscrew.questions.check.answer import check_document, list_document
@@ -222,7 +222,7 @@ def document(selection: Selection, listed: Sequence[Ranked] | None = None) -> di
             **declared.units_of(OneCandidate),
             **(declared.units_of(OfMotion) if moves else {}),
         },
-        "provenance": inputs.of_case(selection.ranked[0].candidate.case) if selection.ranked else None,
+        "provenance": descriptions.of_case(selection.ranked[0].candidate.case) if selection.ranked else None,
     }
 
 

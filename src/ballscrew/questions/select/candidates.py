@@ -19,14 +19,14 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.catalogue import assumed, case_text
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.loaded_balls import loads_of
-from ballscrew.physics.friction.starvation import BothTorques
+from ballscrew.physics.friction.validity import BothTorques
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.installation import Installation
-from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED, lists_preload
+from ballscrew.physics.sizing.ratings import NUTS, PRELOADED, lists_preload
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.check.answer import Checked, checked, checks_by_loads
 from ballscrew.questions.duty import compute, verdicts
@@ -396,7 +396,7 @@ class Starved(NamedTuple):
         if self.under_load or self.without_load is None:
             return [*self.under_load]
         remark = "drag torque of the nut"
-        return starvation.records([self.without_load], remark)
+        return validity.records([self.without_load], remark)
 
 
 def objectives(
@@ -451,8 +451,8 @@ def _without_load(result: Checked) -> BothTorques | None:
     """Torque of the nut without load as it is given and in a full bath of oil; None where they hardly differ."""
     case, given = result.run.case, float(result.nut.preload_drag)
     speed = case.operation.screw_speed
-    if starvation.least_replenished(case.model, case.screw, case.lubricant, speed) >= starvation.NEARLY_ALL:
+    if validity.least_replenished(case.model, case.screw, case.lubricant, speed) >= validity.NEARLY_ALL:
         return None
     idle = case.model.in_full_bath(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
     both = BothTorques(OBJECTIVES["preload_torque"].quantity, given, float(idle.screw_torque))
-    return both if starvation.differs(both.given, both.flooded) else None
+    return both if validity.differs(both.given, both.flooded) else None

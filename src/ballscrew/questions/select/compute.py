@@ -18,7 +18,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel
 from ballscrew.physics.sizing.checks import failing, verdict_of
-from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.duty import compute
 from ballscrew.questions.select.candidates import (

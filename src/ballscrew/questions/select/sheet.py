@@ -24,7 +24,7 @@ from ballscrew.basis.output.sheet import (
     columns_of,
     lines,
 )
-from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.output.text import wrapped
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.questions.check.sheet import cells
 from ballscrew.questions.duty import verdicts

@@ -29,8 +29,8 @@ from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.case_text import THOUSANDS
 from ballscrew.cases.case_files.descriptions import design, title
-from ballscrew.cases.case_files.spelling import THOUSANDS
 from ballscrew.cases.case_files.uncertain_inputs import NOTHING_GIVEN, Uncertain, all_of, path_of
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty import sensitivity as analysis

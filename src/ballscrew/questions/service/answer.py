@@ -14,8 +14,8 @@ from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Tempera
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.uncertainty.distributions import Normal
 from ballscrew.engine.uncertainty.uncertain_value import parse_uncertain
+from ballscrew.evidence.service.diagnostics import PreloadEstimate
 from ballscrew.evidence.service.preload_change import PreloadChange
-from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.questions.service import ReadingOptions, ServiceOptions, compute
 from ballscrew.questions.service.compute import TORQUE, Reading, ServiceReport, verdicts
 from ballscrew.questions.service.sheet import sheet

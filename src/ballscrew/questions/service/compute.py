@@ -19,16 +19,15 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
 from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.engine.uncertainty.uncertain_value import default_distributions
 from ballscrew.evidence.calibration.fit import points_of
 from ballscrew.evidence.calibration.fit_result import Rows
-from ballscrew.evidence.calibration.oil_temperature import torque_of_model
+from ballscrew.evidence.calibration.response import torque_of_model
 from ballscrew.evidence.service.alternatives import Alternative
+from ballscrew.evidence.service.diagnostics import PreloadEstimate
 from ballscrew.evidence.service.posterior import PRELOAD
-from ballscrew.evidence.service.preload_change import VERDICTS, PreloadChange, preload_change
-from ballscrew.evidence.service.preload_estimate import PreloadEstimate
-from ballscrew.evidence.service.preload_of_torque import preload_of_torque
+from ballscrew.evidence.service.preload_change import VERDICTS, PreloadChange, preload_change, preload_of_torque
 from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE

@@ -32,7 +32,7 @@ from ballscrew.basis.output.sheet import (
 from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
-from ballscrew.evidence.service.preload_estimate import PreloadEstimate
+from ballscrew.evidence.service.diagnostics import PreloadEstimate
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.questions.service.compute import TORQUE, ServiceReport, curves, preload_quantity, verdicts

@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.output.markup import escaped
 from ballscrew.basis.output.sheet import Colour
+from ballscrew.basis.output.text import escaped
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

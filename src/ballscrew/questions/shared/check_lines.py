@@ -10,12 +10,12 @@ from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, name_of
 from ballscrew.basis import units
 from ballscrew.basis.errors import in_file
-from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import Cell, Number, Share, Table
+from ballscrew.basis.output.text import plain
 from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.sizing.checks import Check
-from ballscrew.physics.sizing.sources import QUALIFICATIONS
+from ballscrew.physics.sizing.makers_tables import QUALIFICATIONS
 
 #: The display units of the checks, by SI unit.
 _SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m", "N/m": "N/um"}

@@ -24,7 +24,7 @@ from ballscrew.basis.field_docs import comments_of
 from ballscrew.basis.output.sheet import Cells
 from ballscrew.basis.quantities import Info, Quantity, Unit, info_of, unit_of
 from ballscrew.basis.records import Record, documents
-from ballscrew.cases.case_files import inputs
+from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 
 T = TypeVar("T")
@@ -324,14 +324,14 @@ def envelope(
     else it rests on.
     """
     return {
-        "inputs": inputs.inputs(case),
+        "inputs": descriptions.inputs(case),
         **numbers(**{named: results}, **(beside or {})),
         **({} if units is None else {"units": dict(units)}),
         **({} if assumed is None else {"assumed": list(assumed)}),
         "warnings": documents(warnings),
         "verdicts": documents(verdicts),
         "checks": list(checks),
-        "provenance": {**inputs.of_case(case), **(sources or {})},
+        "provenance": {**descriptions.of_case(case), **(sources or {})},
     }
 
 

@@ -19,7 +19,7 @@ from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.listed_nut import NUTS, lists_preload
+from ballscrew.physics.sizing.ratings import NUTS, lists_preload
 
 T = TypeVar("T")
 R = TypeVar("R")

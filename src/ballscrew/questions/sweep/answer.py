@@ -11,7 +11,7 @@ import xarray as xr
 from ballscrew.basis import units
 from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.inputs import of_case
+from ballscrew.cases.case_files.descriptions import of_case
 from ballscrew.engine.uncertainty.bands import ENDS, inner_end, inner_levels
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import FINITE, LEFT_OUT

@@ -10,14 +10,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.basis.errors import raise_if_any
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import overflow_as_input_error, raise_if_any
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION, inputs_of
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.band_evaluation import Values, faults_of_options, tails
-from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
+from ballscrew.engine.uncertainty.band_evaluation import PointGroup, Values, bands_of, faults_of_options, tails
 from ballscrew.engine.uncertainty.bands import ENDS, INNER_LEVELS, NUT_SAMPLES, SAMPLES, inner_end, with_ends
 from ballscrew.engine.uncertainty.distributions import Distribution, scaled
 from ballscrew.engine.uncertainty.monte_carlo import Joint

@@ -21,7 +21,7 @@ from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.cases.schema.case_schema import MODELS
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
+from ballscrew.engine.uncertainty.band_evaluation import PointGroup, bands_of
 from ballscrew.evidence.validation.entries import (
     CONDITIONS,
     Conditions,

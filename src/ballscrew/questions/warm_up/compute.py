@@ -8,8 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew.axis.duty_cycle.duty import Duty, cycle
-from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
+from ballscrew.axis.duty_cycle.duty import Duty, cycle, to_and_fro
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.supports.bearing import MountedBearing
@@ -18,8 +17,7 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
 from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
-from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.errors import Fault, InputError, overflow_as_input_error, raise_if_any
 from ballscrew.basis.quantities import (
     Energy,
     Force,

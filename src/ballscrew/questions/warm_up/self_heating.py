@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium, steady_heat
 from ballscrew.axis.thermal.friction_map import friction_map
 from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.warm_up import Equilibrium, equilibrium, steady_heat
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Temperature, Torque, quantities_of
 from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import from_attributes
@@ -133,14 +133,14 @@ class SelfHeating:
         """Both torques warm and as given, each warm one at the oil of its own steady state."""
         given = (self.torque, self.torque_given)
         flooded = (self.flooded_torque, self.flooded_torque_given)
-        if not np.any(starvation.differs(given, flooded)):
+        if not np.any(validity.differs(given, flooded)):
             return []
         numbers = [
-            starvation.BothTorques(quantity, *both)
+            validity.BothTorques(quantity, *both)
             for quantity, *both in zip((WARM, GIVEN), given, flooded, strict=True)
             if np.isfinite(both).all()
         ]
-        return starvation.records(numbers)
+        return validity.records(numbers)
 
     @property
     def _record(self) -> Record:

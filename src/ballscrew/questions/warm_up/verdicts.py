@@ -9,7 +9,7 @@ import numpy as np
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis import units
 from ballscrew.basis.records import Record
-from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.validity import implausible
 from ballscrew.questions.warm_up.compute import AT_END, AT_START, PLACE, SERIES, WarmUpReport
 
@@ -32,10 +32,10 @@ def _starved(report: WarmUpReport) -> list[Record]:
         return []
     start = [float(one.warm_up.screw_torque[0]) for one in (report, full)]
     end = [float(one.equilibrium["screw_torque"]) for one in (report, full)]
-    numbers = [starvation.BothTorques(AT_START, *start)]
+    numbers = [validity.BothTorques(AT_START, *start)]
     if np.isfinite(end).all():
-        numbers.append(starvation.BothTorques(AT_END, *end))
-    said = starvation.records(numbers)
+        numbers.append(validity.BothTorques(AT_END, *end))
+    said = validity.records(numbers)
     ends = full.warm_up.equilibrium
     if ends.exists or not report.warm_up.equilibrium.exists:
         return said
