@@ -22,8 +22,7 @@ from ballscrew.questions.band import compute as band
 from ballscrew.questions.band.sheet import sheet
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.text_tables import markdown_table
-from ballscrew.questions.validate.compute import evaluate, request
-from ballscrew.questions.validate.uncertainty import with_bands
+from ballscrew.questions.validate.compute import evaluate, request, with_bands
 
 sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
 from harness import study

@@ -25,9 +25,8 @@ from benchmarks.hostile.mutations import OF_BYTES, OF_TEXT_BYTES, Random, chosen
 from benchmarks.hostile.tally import Outcome
 
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.fit import compute
+from ballscrew.questions.fit import FitOptions, compute
 from ballscrew.questions.fit.log import steady_log
-from ballscrew.questions.fit.options import FitOptions
 from support.fit_logs import FRICTION, HEADINGS, OFFSET, PAPER, columns
 
 COUNT, SECONDS = 300, 120.0

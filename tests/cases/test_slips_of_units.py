@@ -15,7 +15,7 @@ from ballscrew.physics.components.screw import odd_preload, rating_of
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from ballscrew.physics.sizing.own_nut import odd_ratings
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
-from ballscrew.questions.select.answer import verdict
+from ballscrew.questions.select.compute import verdict
 
 ROOT = Path(__file__).parents[2]
 AXIS = ROOT / "examples" / "vertical_axis.toml"

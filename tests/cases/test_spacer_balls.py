@@ -12,7 +12,7 @@ from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.questions.shared import own_screws
+from ballscrew.questions.shared import every_row
 from support.drive_case import drive_case
 
 TABLE = """\
@@ -93,7 +93,7 @@ def test_a_word_that_is_neither_yes_nor_no_is_refused(tmp_path):
 def test_a_row_says_it_in_place_of_the_case(rows, tmp_path, name, has):
     """What a row leaves open is that of the case."""
     tables = {**case_file.read(_written(tmp_path, "spacer_balls = true")), "model": {}}
-    own = own_screws.tables_of_row(tables, rows[name], tmp_path / "own.csv")
+    own = every_row.tables_of_row(tables, rows[name], tmp_path / "own.csv")
     case = case_file.build(own, folder=tmp_path, rows={name: rows[name]})
     assert case.screw.nut.spacer_balls == has
 

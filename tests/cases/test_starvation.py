@@ -14,10 +14,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.laws.inlet import Inlet
-from ballscrew.questions.band import compute
+from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.band.answer import verdicts
-from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.check import compute as check
+from ballscrew.questions.check import answer as check
 from ballscrew.questions.check.sheet import of_rows
 from ballscrew.questions.duty import answer
 from ballscrew.questions.duty.compute import duty
@@ -37,7 +36,6 @@ from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.warm_up import answer as warm_up_documents
 from ballscrew.questions.warm_up import self_heating
 from ballscrew.questions.warm_up.compute import warmed_up
-from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet as warm_up_sheet
 from support.commands import ROOT
 
@@ -389,7 +387,7 @@ def test_self_heating_says_what_a_full_bath_would_end_in():
     assert found.flooded_torque == pytest.approx(bath.numbers.screw_torque, rel=1e-6)
     assert found.flooded_torque_given == pytest.approx(bath.numbers.screw_torque_given, rel=1e-9)
     assert found.flooded_oil_temperature == pytest.approx(bath.numbers.oil_temperature, abs=1e-3)
-    document = with_self_heating(run_documents.document(run(cold.warm)), cold)
+    document = cold.within(run_documents.document(run(cold.warm)))
     (record,) = [r for r in document["verdicts"] if r["subject"] == "self_heating.screw_torque"]
     assert record["id"] == "lubricant.starved"
     assert (record["value"], record["limit"]) == (found.flooded_torque, found.screw_torque)

@@ -8,8 +8,8 @@ import pytest
 
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.components.oil_grades import TEMPERATURE
+from ballscrew.questions.sensitivity import SensitivityOptions
 from ballscrew.questions.sensitivity.answer import sensitivity
-from ballscrew.questions.sensitivity.options import SensitivityOptions
 
 pytestmark = pytest.mark.slow
 

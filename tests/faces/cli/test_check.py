@@ -15,7 +15,7 @@ from ballscrew.physics.equations import life
 from ballscrew.physics.sizing.catalogue import printed_rows
 from ballscrew.physics.sizing.checks import loads_of_halves
 from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.questions.check import compute
+from ballscrew.questions.check import answer
 
 ROOT = Path(__file__).parents[3]
 EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
@@ -43,8 +43,8 @@ def refused(process, *expected):
 
 
 def checked(name=NAME, **given):
-    return compute.one(
-        str(name), None, compute.Options({k.replace("__", "."): v for k, v in given.items()}, [], None), False
+    return answer.one(
+        str(name), None, answer.Options({k.replace("__", "."): v for k, v in given.items()}, [], None), False
     )[0]
 
 

@@ -7,9 +7,8 @@ import pytest
 
 from ballscrew.basis.output.sheet import Chart, Columns, Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.condition import answer
+from ballscrew.questions.condition import ConditionOptions, answer
 from ballscrew.questions.condition.answer import sheet
-from ballscrew.questions.condition.options import ConditionOptions
 from support.pictures import drawn
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -15,7 +15,7 @@ import xarray as xr
 import ballscrew as bs
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.shared import every_row, own_screws
+from ballscrew.questions.shared import every_row
 from ballscrew.questions.sweep import table
 from support.fit_logs import PAPER, TRUE_FRICTION, columns, text_of
 
@@ -106,7 +106,7 @@ def test_a_row_counts_before_the_case_and_the_case_for_the_rest(place):
 def test_sizes_of_bodies_of_the_case_are_of_its_own_screw(place):
     tables = {"bodies": {"screw_diameter": "30 mm", "same_side": False}, "nut": {"preloda": "1 kN"}}
     row = bs.screws(place / "own.csv")["A"]
-    made = own_screws.tables_of_row(tables, row, place / "own.csv")
+    made = every_row.tables_of_row(tables, row, place / "own.csv")
     assert made["bodies"] == {"same_side": False}
     assert made["nut"] == {"preloda": "1 kN"}  # no field of any nut: a fault of the case, to be found
 

@@ -11,8 +11,7 @@ import xarray as xr
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.band import compute
-from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.sweep import compute as sweep
 from ballscrew.questions.sweep.band import with_band
 

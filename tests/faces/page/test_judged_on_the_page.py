@@ -10,7 +10,7 @@ from ballscrew.faces.report.drawing_contact import drawn_ball
 from ballscrew.faces.report.drawing_section import BALL, RADIUS, Groove
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, judged, outputs
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check.answer import checked
 from ballscrew.questions.run.compute import run
 from support.judged_in_node import JudgedPage, case_at
 

@@ -20,7 +20,7 @@ from ballscrew.faces.page import site
 from ballscrew.faces.web import documents
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from ballscrew.questions.band.compute import of_makers
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check.answer import checked
 from ballscrew.questions.run.compute import run
 
 NUTS = ("row", "double", "double+elastic")

@@ -53,7 +53,7 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.nut_losses import ConstantTorque
 from ballscrew.questions.axis.answer import SERIES, chain_of
 from ballscrew.questions.band import compute
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check.answer import checked
 from ballscrew.questions.duty.compute import NUMBERS, duty
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared.question import CaseOptions

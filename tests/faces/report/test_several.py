@@ -13,7 +13,7 @@ from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.faces.sheets.report_blocks import as_data
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import compute
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check.answer import checked
 from ballscrew.questions.run.compute import run
 
 NAMES = ("catalogue_screw", "feed_drive", "rig")

@@ -8,7 +8,7 @@ import pytest
 
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import document as document_of_sheet
-from ballscrew.questions.condition.question import MOST_LOGS
+from ballscrew.questions.condition import MOST_LOGS
 from ballscrew.questions.optimise.answer import document as of_optimisation
 from ballscrew.questions.optimise.compute import optimise
 from ballscrew.questions.optimise.sheet import sheet as sheet_of

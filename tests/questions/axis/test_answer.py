@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from ballscrew.basis.output.sheet import Columns, Table
+from ballscrew.questions import responses
 from ballscrew.questions.axis.answer import FRICTION, LOAD, SERIES, SPEED, ChainResults, chain_of, document, sheet
-from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.answer_parts import Assumed
+from ballscrew.questions.shared import schemas
 from support.answers import without_unit
 from support.axis_cases import load
 from support.commands import ROOT
@@ -21,7 +21,7 @@ def report():
 
 def test_every_number_at_a_place_is_on_every_face(report):
     """A number is annotated where it is computed."""
-    answer, schema = document(report), declared.schema(ChainResults).model_json_schema()
+    answer, schema = document(report), schemas.schema(ChainResults).model_json_schema()
     results, of_place = answer["results"], schema["$defs"]["AtPlace"]["properties"]
     (columns,) = sheet(report).of_kind(Columns)
     tables = {table.name: table for table in sheet(report).of_kind(Table)}
@@ -40,7 +40,7 @@ def test_every_number_at_a_place_is_on_every_face(report):
 
 
 def test_the_numbers_of_the_motion_have_units(report):
-    answer, schema = document(report), declared.schema(ChainResults).model_json_schema()["properties"]
+    answer, schema = document(report), schemas.schema(ChainResults).model_json_schema()["properties"]
     for quantity in (LOAD, SPEED, FRICTION):
         assert answer["results"][quantity.name] == getattr(report, quantity.name)
         assert answer["units"][quantity.name] == quantity.unit == schema[quantity.name]["x-si-unit"]
@@ -50,4 +50,4 @@ def test_the_numbers_of_the_motion_have_units(report):
 @pytest.mark.parametrize("example", ["feed_axis.toml", "catalogue_screw.toml"])
 def test_answers_are_valid_by_their_schema(example):
     found = document(chain_of(load(EXAMPLES / example, [])))
-    declared.response(ChainResults, "Chain", beside=Assumed).model_validate({**found, "sheet": {}})
+    responses.OF_QUESTIONS["axis"].model_validate({**found, "sheet": {}})

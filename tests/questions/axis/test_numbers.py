@@ -9,7 +9,7 @@ from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.axis.answer import SERIES, SPEED, chain_of, sheet
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check.answer import checked
 from support.axis_cases import load
 from support.commands import ROOT
 

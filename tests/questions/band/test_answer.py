@@ -8,11 +8,10 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.named_calibration import by_rules
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.band import compute
+from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.band.answer import BandResults, document, verdicts
-from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.run.compute import run
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import schemas
 from support.commands import ROOT
 
 
@@ -24,7 +23,7 @@ def answer():
 
 
 def test_every_output_is_on_every_face(answer):
-    described, known = declared.schema(BandResults).model_json_schema()["properties"], quantities_of(FrictionResult)
+    described, known = schemas.schema(BandResults).model_json_schema()["properties"], quantities_of(FrictionResult)
     for name in BAND_OUTPUTS:
         one = answer["band"][name]
         assert one["low"] <= one["median"] <= one["high"]
@@ -33,7 +32,7 @@ def test_every_output_is_on_every_face(answer):
 
 
 def test_a_band_is_valid_by_its_schema(answer):
-    declared.schema(BandResults).model_validate(answer["band"])
+    schemas.schema(BandResults).model_validate(answer["band"])
     assert any("reason" in one for one in answer["band"]["inputs"].values())
     assert any(answer["band"]["laws"].values())
 

@@ -9,8 +9,7 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.bands import _without  # of a linear model, which no screw is
 from ballscrew.physics.components.nut import Nut
-from ballscrew.questions.band import answer, compute
-from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.band import BandOptions, answer, compute
 
 OWN = {
     "pitch_circle_diameter": "41.4 mm", "lead": "10 mm", "ball_diameter": "6.35 mm", "loaded_balls": 75,

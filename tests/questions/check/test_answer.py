@@ -9,12 +9,12 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import files, terminal
 from ballscrew.faces.web import documents
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.check import compute
-from ballscrew.questions.check.compute import Checks, Geometry, Options, Rated, one
+from ballscrew.questions.check.answer import Geometry, Options, Rated, document, one
 from ballscrew.questions.check.sheet import cells, sheet
+from ballscrew.questions.responses import Checks
 from ballscrew.questions.run.compute import NutLoads, run
 from ballscrew.questions.run.sheet import stiffness_fields
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import schemas
 from support.answers import without_unit
 from support.commands import ROOT
 from support.drive_case import drive_case
@@ -28,11 +28,11 @@ def found():
 
 
 def schema_of(cls):
-    return declared.schema(cls).model_json_schema()["properties"]
+    return schemas.schema(cls).model_json_schema()["properties"]
 
 
 def test_ratings_are_on_every_face(found):
-    answer, words = compute.document(found), terminal.text(sheet(found))
+    answer, words = document(found), terminal.text(sheet(found))
     headings = files.rows_of(columns_of("screws", [cells(found)])).headings
     for name, quantity in quantities_of(Rated).items():
         for of in ("listed", "computed"):
@@ -63,7 +63,7 @@ def test_what_the_motor_holds_and_a_slender_shaft_are_on_every_face(tmp_path):
     def told(held, length):
         path.write_text(drive_case(more=MOUNTED.format(held=held, length=length)), encoding="utf-8")
         checked = one(str(path), None, Options({}, (), None), keep_going=False)[0]
-        records = {record["id"]: record for record in compute.document(checked)["verdicts"]}
+        records = {record["id"]: record for record in document(checked)["verdicts"]}
         assert all(record["text"] in " ".join(terminal.text(sheet(checked)).split()) for record in records.values())
         return records, checked.run.at_rest.holding_torque
 
@@ -77,7 +77,7 @@ def test_what_the_motor_holds_and_a_slender_shaft_are_on_every_face(tmp_path):
 
 
 def test_sizes_are_on_every_face(found):
-    answer, words = compute.document(found), terminal.text(sheet(found))
+    answer, words = document(found), terminal.text(sheet(found))
     for name, quantity in quantities_of(Geometry).items():
         assert answer["geometry"][name] == getattr(found.geometry, name) > 0
         assert answer["units"]["geometry"][name] == quantity.unit == schema_of(Geometry)[name]["x-si-unit"]
@@ -87,9 +87,9 @@ def test_sizes_are_on_every_face(found):
 
 
 def test_loads_are_on_every_face(found):
-    answer, words = compute.document(found), terminal.text(sheet(found))
+    answer, words = document(found), terminal.text(sheet(found))
     loads, of_loads = answer["loads"], answer["units"]["loads"]
-    schema = declared.schema(NutLoads).model_json_schema()
+    schema = schemas.schema(NutLoads).model_json_schema()
     of_balls = schema["$defs"]["EachBall"]["properties"]
     for name, quantity in quantities_of(BallLoads).items():
         part, unit, described = loads, of_loads, schema["properties"]
@@ -109,7 +109,7 @@ def test_answers_are_valid_by_their_schema(example):
 
 
 def test_every_number_has_a_unit(found):
-    answer = compute.document(found)
+    answer = document(found)
     parts = {name: answer[name] for name in ("geometry", "loads", "ratings")}
     # as counted, and the factor of a standard
     assert set(without_unit(parts, answer["units"])) <= {"loads.balls.count", "loads.axial_rigidity.accuracy_factor"}

@@ -13,7 +13,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.physics.friction.verdicts import PRELOAD_ABOVE_RATING
 from ballscrew.physics.sizing.checks import judged as number_judged
 from ballscrew.physics.sizing.judged import JUDGED, documents, judged
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check.answer import checked
 from ballscrew.questions.run.compute import run
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -9,9 +9,9 @@ from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.compare import compute
 from ballscrew.questions.compare.compute import Compared, ComparedLaw, ComparedModel, comparison
-from ballscrew.questions.compare.response import Compare
 from ballscrew.questions.compare.sheet import sheet
-from ballscrew.questions.shared import declared
+from ballscrew.questions.responses import Compare
+from ballscrew.questions.shared import declared, schemas
 from support.answers import without_unit
 from support.commands import ROOT
 
@@ -28,7 +28,7 @@ def test_every_number_of_a_model_is_on_every_face(compared):
     case, found = compared
     answer = compute.document(case, found)
     words = terminal.text(sheet(case, found))
-    schema = declared.schema(Compared).model_json_schema()["$defs"]
+    schema = schemas.schema(Compared).model_json_schema()["$defs"]
     for name, quantity in quantities_of(ComparedModel).items():
         assert quantity.info == quantities_of(FrictionResult)[name].info
         assert answer["case"][name] == pytest.approx(getattr(found.case.result, name), rel=1e-15, nan_ok=True)

@@ -6,11 +6,12 @@ import pytest
 
 from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
+from ballscrew.questions import responses
 from ballscrew.questions.duty import compute, parts
 from ballscrew.questions.duty.answer import document
 from ballscrew.questions.duty.compute import IF_ANY, NUMBERS, DutyReport
 from ballscrew.questions.duty.sheet import sheet
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import declared, schemas
 from support.answers import without_unit
 from support.commands import ROOT
 
@@ -29,7 +30,7 @@ def report():
 
 def test_every_number_is_on_every_face(report):
     """A number is one property: nothing else has to name it."""
-    answer, schema = document(report), declared.schema(DutyReport).model_json_schema()["properties"]
+    answer, schema = document(report), schemas.schema(DutyReport).model_json_schema()["properties"]
     (cycle,) = (block for block in sheet(report).of_kind(Table) if block.name == "cycle")
     rows = {row[0]: row[1].value for row in cycle.rows}
     for name, quantity in NUMBERS.items():
@@ -68,7 +69,7 @@ CASES = {
 @pytest.mark.parametrize("settings", CASES.values(), ids=CASES)
 def test_answers_are_valid_by_their_schema(example, settings):
     found = document(report_of(*settings, example=example))
-    declared.response(DutyReport, "Duty", judged=True).model_validate({**found, "sheet": {}})
+    responses.OF_QUESTIONS["duty"].model_validate({**found, "sheet": {}})
 
 
 def test_every_number_has_a_unit(report):

@@ -11,7 +11,7 @@ from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.moving_balls.friction_states import SlipElement, gms_torque, work_share
 from ballscrew.questions.duty import compute
-from ballscrew.questions.duty.short_reversal import strokes
+from ballscrew.questions.duty.parts import strokes
 from ballscrew.questions.duty.verdicts import warnings
 
 ELEMENTS = (SlipElement(stiffness=400.0, slip_torque=0.2), SlipElement(stiffness=5.0, slip_torque=0.5))

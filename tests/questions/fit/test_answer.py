@@ -14,7 +14,7 @@ from ballscrew.questions.fit import compute
 from ballscrew.questions.fit.answer import FitResults, FittedNumber, document
 from ballscrew.questions.fit.log import read_options, steady_log
 from ballscrew.questions.fit.sheet import of_rows, sheet, trade_off
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import declared, schemas
 from support.answers import without_unit
 from support.fit_logs import EXAMPLES, FRICTION, OFFSET, PAPER, columns, text_of
 
@@ -36,7 +36,7 @@ def test_every_number_is_on_every_face(fitted):
     answer = plain(document(case, report))
     cells = files.rows_of(next(of_rows({"log": report}).of_kind(Columns)))
     row = dict(zip(cells.headings, cells.rows[0], strict=True))
-    model = declared.schema(FitResults).model_json_schema()
+    model = schemas.schema(FitResults).model_json_schema()
     numbers = {name: part for name, part in declared.parts_of(FitResults).items() if part.quantity is not None}
     assert {"temperature_error", "residual_rms", "holdout_rms"} == numbers.keys()
     for name, part in numbers.items():
@@ -56,7 +56,7 @@ def test_every_number_is_on_every_face(fitted):
 
 def test_results_are_valid_by_their_schema(fitted):
     answer = plain(document(*fitted))
-    declared.schema(FitResults).model_validate({name: answer[name] for name in declared.parts_of(FitResults)})
+    schemas.schema(FitResults).model_validate({name: answer[name] for name in declared.parts_of(FitResults)})
     for one in answer["estimates"].values():
         assert one["identified"] == (one["std"] is not None) == (one["low"] is not None)
 

@@ -17,6 +17,7 @@ from ballscrew.questions.optimise.compute import _sound, spread
 from ballscrew.questions.optimise.design_model import (
     VARIABLES,
     DesignModel,
+    Designs,
     Sampled,
     SearchOptions,
     _quantile,
@@ -24,7 +25,6 @@ from ballscrew.questions.optimise.design_model import (
     design_space,
     makeable_bounds,
 )
-from ballscrew.questions.optimise.designs import Designs
 from ballscrew.questions.optimise.need_schema import json_schema
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.requirements import Requirements

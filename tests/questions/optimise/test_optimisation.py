@@ -16,12 +16,12 @@ from ballscrew.basis.output.sheet import Sheet
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import files, terminal
 from ballscrew.physics.equations import geometry
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check.answer import checked
 from ballscrew.questions.optimise import compute
 from ballscrew.questions.optimise.answer import document
 from ballscrew.questions.optimise.design_model import DesignModel, design_space, makeable_ratios
 from ballscrew.questions.optimise.sheet import cost, of_optimisation, sheet
-from ballscrew.questions.select import requirement_checks
+from ballscrew.questions.select import requirements
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.requirements import OBJECTIVES, front
 from support.commands import ROOT
@@ -91,7 +91,7 @@ def test_constraints_and_objectives_are_those_of_the_check(nut):
         for check in found.checks:
             if check.name in used:
                 assert used[check.name][place] == pytest.approx(check.utilisation, rel=1e-6), check.name
-        kept = requirement_checks.kept_preload(found.nut.preload, 6000.0, found.nut.loads)
+        kept = requirements.kept_preload(found.nut.preload, 6000.0, found.nut.loads)
         assert ("preload" in used) is (kept is not None)
         if kept is not None:
             assert used["preload"][place] == pytest.approx(kept.utilisation, rel=1e-6)

@@ -12,10 +12,9 @@ from ballscrew.basis.output.text import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.moving_balls.friction_states import work_share
-from ballscrew.questions.reversal import answer
-from ballscrew.questions.reversal.answer import ReversalResults, document, sheet
-from ballscrew.questions.reversal.options import ReversalOptions
-from ballscrew.questions.shared import declared
+from ballscrew.questions import responses
+from ballscrew.questions.reversal import ReversalOptions, answer
+from ballscrew.questions.reversal.answer import document, sheet
 from support.answers import without_unit
 from support.commands import ROOT
 from support.reversals import STEADY, closed_form
@@ -142,7 +141,7 @@ def test_every_number_is_in_the_document(report):
 
 
 def test_answers_are_valid_by_their_schema(report):
-    declared.response(ReversalResults, "Reversal").model_validate({**document(report), "sheet": {}})
+    responses.OF_QUESTIONS["reversal"].model_validate({**document(report), "sheet": {}})
 
 
 def test_the_text(report):

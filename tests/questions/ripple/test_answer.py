@@ -21,8 +21,8 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
+from ballscrew.questions.ripple import RippleOptions
 from ballscrew.questions.ripple.answer import ALL, defects_of, document, given_of, ripple_of, sheet
-from ballscrew.questions.ripple.options import RippleOptions
 from support.answers import without_unit
 from support.commands import ROOT
 

@@ -5,12 +5,12 @@ import pytest
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
+from ballscrew.questions.responses import Document
 from ballscrew.questions.run import compute
 from ballscrew.questions.run.answer import RunResults, document
 from ballscrew.questions.run.compute import OF_ONE_BALL
-from ballscrew.questions.run.response import Document
 from ballscrew.questions.run.sheet import SHOWN, meaning, sheet
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import schemas
 from support.answers import without_unit
 from support.commands import ROOT
 
@@ -31,7 +31,7 @@ def found(request):
 
 
 def test_every_number_is_on_every_face(found):
-    answer, described = plain(document(found)), declared.schema(RunResults).model_json_schema()["properties"]
+    answer, described = plain(document(found)), schemas.schema(RunResults).model_json_schema()["properties"]
     results, units = answer["results"], answer["units"]
     for name, quantity in found.quantities.items():
         if name in ("axial_load", "screw_speed"):  # inputs

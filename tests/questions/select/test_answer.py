@@ -7,12 +7,12 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.named_calibration import by_rules
 from ballscrew.faces.sheets import files
-from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, document
-from ballscrew.questions.select.compute import Plan, plan
+from ballscrew.questions.responses import Candidate, Select
+from ballscrew.questions.select.answer import MotorTorque, OfMotion, OneCandidate, document
+from ballscrew.questions.select.compute import BrakeOfNeed, Plan, plan
 from ballscrew.questions.select.requirements import OBJECTIVES
-from ballscrew.questions.select.response import Candidate, Select
 from ballscrew.questions.select.sheet import beside_rules, of_selection
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import declared, schemas
 from support.answers import without_unit
 
 POINT = {"force": "2 kN", "feed": "10 m/min", "preload": "5 %", "rows": "hiwin-40-20k4"}
@@ -30,7 +30,7 @@ def found(request):
 @pytest.mark.slow
 def test_the_numbers_compared_are_on_every_face(found):
     answer, headings = document(found), files.rows_of(of_selection(found.ranked)).headings
-    schema = declared.schema(OneCandidate).model_json_schema()["$defs"]["Objectives"]["properties"]
+    schema = schemas.schema(OneCandidate).model_json_schema()["$defs"]["Objectives"]["properties"]
     for name, objective in OBJECTIVES.items():
         quantity = objective.quantity
         assert name in answer["candidates"][0]["objectives"]
@@ -96,5 +96,5 @@ def test_every_number_has_a_unit(found):
 
 def test_a_plan_is_valid_by_its_schema():
     answer = declared.document(plan(POINT))
-    declared.schema(Plan).model_validate(answer)
+    schemas.schema(Plan).model_validate(answer)
     assert answer["unasked"][0].keys() == {"input", "checks"}

@@ -11,14 +11,12 @@ import pytest
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.sizing.checks import Check
-from ballscrew.questions.select import candidates, requirement_checks
+from ballscrew.questions.select import candidates, requirements
 from ballscrew.questions.select.answer import need_document
 from ballscrew.questions.select.candidates import Candidate, Variant
 from ballscrew.questions.select.compute import Selection, ranked
-from ballscrew.questions.select.need import need_of
-from ballscrew.questions.select.need_motion import with_motion
-from ballscrew.questions.select.requirement_checks import kept_preload, preload_used
-from ballscrew.questions.select.requirements import OBJECTIVES, Requirements, front
+from ballscrew.questions.select.need import need_of, with_motion
+from ballscrew.questions.select.requirements import OBJECTIVES, Requirements, front, kept_preload, preload_used
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 HOUR = 3600.0
@@ -173,15 +171,15 @@ def test_whether_a_load_turns_the_screw(needs, holding, value, holds, way):
     run = types.SimpleNamespace(
         at_rest=types.SimpleNamespace(axial_load=way * 5e3, holding_torque=rest), friction=friction
     )
-    found = requirement_checks.back_driving(Requirements(back_driving=needs), types.SimpleNamespace(run=run))
+    found = requirements.back_driving(Requirements(back_driving=needs), types.SimpleNamespace(run=run))
     assert found.value == (None if value is None else pytest.approx(value, abs=1e-12))
     assert found.holds is holds
 
 
 def test_whether_a_load_turns_the_screw_is_not_asked_or_not_known():
     run = types.SimpleNamespace(at_rest=types.SimpleNamespace(axial_load=0.0))
-    assert requirement_checks.back_driving(Requirements(), types.SimpleNamespace(run=run)) is None
-    found = requirement_checks.back_driving(Requirements(back_driving="needed"), types.SimpleNamespace(run=run))
+    assert requirements.back_driving(Requirements(), types.SimpleNamespace(run=run)) is None
+    found = requirements.back_driving(Requirements(back_driving="needed"), types.SimpleNamespace(run=run))
     assert (found.holds, found.value) == (None, None)
 
 
@@ -200,17 +198,17 @@ def test_whether_an_axis_moves_with_the_motor_off(needs, falls, value, holds):
     brake = types.SimpleNamespace(falls=any(falls), holding_torque=0.7, conditions=conditions)
     numbers = dict.fromkeys(OBJECTIVES, math.nan)
     report = types.SimpleNamespace(brake=brake)
-    (found,) = requirement_checks.of_friction(Requirements(back_driving=needs), None, report, numbers)
+    (found,) = requirements.of_friction(Requirements(back_driving=needs), None, report, numbers)
     assert (found.value, found.holds) == (value, holds)
-    assert requirement_checks.of_friction(Requirements(), None, report, numbers) == ()
+    assert requirements.of_friction(Requirements(), None, report, numbers) == ()
 
 
 def test_steps_and_bounds_by_hand():
     asked = Requirements(counts_per_turn=1000, largest_step=8e-6)
-    found = requirement_checks.step(asked, 0.010)
+    found = requirements.step(asked, 0.010)
     assert (found.value, found.utilisation, found.holds) == (pytest.approx(1e-5), pytest.approx(1.25), False)
-    assert requirement_checks.step(dataclasses.replace(asked, largest_step=None), 0.010) is None
-    assert requirement_checks.step(Requirements(), 0.010) is None
+    assert requirements.step(dataclasses.replace(asked, largest_step=None), 0.010) is None
+    assert requirements.step(Requirements(), 0.010) is None
     bounds = Requirements(largest_drive_torque=5.0, largest_preload_torque=1.0, least_rigidity=4e8)
     run = types.SimpleNamespace(brake=None)
     numbers = {"drive_torque": 4.0, "preload_torque": 1.2, "rigidity": math.nan}
@@ -219,7 +217,7 @@ def test_steps_and_bounds_by_hand():
         every = {**dict.fromkeys(("nut", "nut_corrected", "drive"), math.nan), **by_standard}
         return types.SimpleNamespace(nut=types.SimpleNamespace(rigidity=types.SimpleNamespace(**every)))
 
-    drive, idle, rigidity = requirement_checks.of_friction(bounds, with_rigidities(), run, numbers)
+    drive, idle, rigidity = requirements.of_friction(bounds, with_rigidities(), run, numbers)
     assert (drive.utilisation, drive.holds) == (pytest.approx(0.8), True)
     assert (idle.utilisation, idle.holds) == (pytest.approx(1.2), False)
     assert (rigidity.utilisation, rigidity.holds, rigidity.limit) == (None, None, 4e8)
@@ -227,10 +225,10 @@ def test_steps_and_bounds_by_hand():
     # of the balls under the load and of the nut as catalogues print it the smaller; shaft and bearings stand beside it
     printed = with_rigidities(nut=6e8, nut_corrected=3e8, drive=2e8)
     for balls, value in ((5e8, 3e8), (2.5e8, 2.5e8), (math.nan, 3e8)):
-        *_, rigidity = requirement_checks.of_friction(bounds, printed, run, {**numbers, "rigidity": balls})
+        *_, rigidity = requirements.of_friction(bounds, printed, run, {**numbers, "rigidity": balls})
         assert (rigidity.value, rigidity.holds) == (value, False)
         assert "by ISO 3408-4, 300 N/µm; nut, shaft and bearings together 200 N/µm" in rigidity.text
-    *_, rigidity = requirement_checks.of_friction(bounds, with_rigidities(nut=6e8), run, {**numbers, "rigidity": 9e8})
+    *_, rigidity = requirements.of_friction(bounds, with_rigidities(nut=6e8), run, {**numbers, "rigidity": 9e8})
     assert (rigidity.value, rigidity.holds) == (6e8, True)
 
 

@@ -14,11 +14,11 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli.progress import progress
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.select import case_text, compute
-from ballscrew.questions.select.answer import document, verdict
+from ballscrew.questions.select import answer, compute
+from ballscrew.questions.select.answer import document
 from ballscrew.questions.select.candidates import BY_LOADS, NEARLY, USUAL_LIFE
-from ballscrew.questions.select.need import need_of
-from ballscrew.questions.select.need_motion import OF_MOTION
+from ballscrew.questions.select.compute import verdict
+from ballscrew.questions.select.need import OF_MOTION, need_of
 from ballscrew.questions.select.sheet import cost, sheet
 from support.commands import ROOT
 from support.pictures import drawn
@@ -77,7 +77,7 @@ def test_the_motor_accelerates_the_shaft_that_the_list_prints(ballscrew, tmp_pat
     found = bs.select(need, complete=True)
     (only,) = found.ranked
     path = tmp_path / "case.toml"
-    path.write_text(case_text.text(found, only, ""), encoding="utf-8")
+    path.write_text(answer.case_text(found, only, ""), encoding="utf-8")
 
     def peak(setting):
         return json.loads(ballscrew("duty", str(path), "--set", setting, "--json").stdout)["results"]["torque_peak"]

@@ -7,7 +7,7 @@ import pytest
 from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.questions.service.answer import EstimatedPreload, ServiceResults
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import schemas
 from support.answers import without_unit
 from support.commands import ROOT
 
@@ -29,7 +29,7 @@ def answer(request, ballscrew):
 def test_every_number_of_a_preload_is_on_every_face(ballscrew):
     answer = json.loads(ballscrew("service", *ASKED["two logs"], "--json").stdout)
     words = ballscrew("service", *ASKED["two logs"]).stdout
-    described = declared.schema(ServiceResults).model_json_schema()["$defs"]["EstimatedPreload"]["properties"]
+    described = schemas.schema(ServiceResults).model_json_schema()["$defs"]["EstimatedPreload"]["properties"]
     for of in ("new", "worn"):
         for name, quantity in quantities_of(EstimatedPreload).items():
             assert answer["results"][of][name] > 0
@@ -46,7 +46,7 @@ def test_every_number_of_a_preload_is_on_every_face(ballscrew):
 
 @pytest.mark.slow
 def test_results_are_valid_by_their_schema(answer):
-    declared.schema(ServiceResults).model_validate(answer["results"])
+    schemas.schema(ServiceResults).model_validate(answer["results"])
     assert ("ratio" in answer["results"]) != ("torque" in answer["results"])
 
 

@@ -5,8 +5,8 @@ import math
 import pytest
 
 from ballscrew.basis.errors import InputError
-from ballscrew.questions.service import reading
-from ballscrew.questions.service.answer import probability
+from ballscrew.questions.service import answer
+from ballscrew.questions.service.compute import probability
 
 
 @pytest.mark.parametrize(
@@ -40,10 +40,10 @@ def written(**given):
 def test_a_question_is_one(logs, given, where, tmp_path):
     asked = [tmp_path / str(i) for i in range(logs)], True, written(**given)
     if not where:
-        reading.check_question(*asked)
+        answer.check_question(*asked)
     else:
         with pytest.raises(InputError) as raised:
-            reading.check_question(*asked)
+            answer.check_question(*asked)
         assert [fault.where for fault in raised.value.faults] == where
 
 
@@ -52,7 +52,7 @@ def test_a_question_is_one(logs, given, where, tmp_path):
     [("0.4 N m", 0.4, 0.0), ("400 N mm", 0.4, 0.0), ("0.4 ± 0.0392 N m", 0.4, 0.02), ("0.4 N m ± 10 %", 0.4, 0.0204)],
 )
 def test_a_torque_with_its_interval(torque, value, deviation):
-    found = reading.reading(written(torque=torque, speed="60 rpm", temperature="30 degC"))
+    found = answer.reading(written(torque=torque, speed="60 rpm", temperature="30 degC"))
     assert (found.torque, found.screw_speed) == (pytest.approx(value), pytest.approx(2 * math.pi))
     assert found.torque_deviation == pytest.approx(deviation, rel=1e-3, abs=1e-12)
     assert found.temperature == pytest.approx(303.15)

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from typing_extensions import TypeAliasType
 
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Torque, Unit
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared import declared, schemas
 from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer, Column, part
 
 
@@ -91,7 +91,7 @@ def test_units_have_the_tables_of_the_document():
 
 
 def test_a_schema_describes_each_part():
-    schema = declared.schema(Path).model_json_schema()
+    schema = schemas.schema(Path).model_json_schema()
     assert schema["description"] == "A path."
     torque = schema["properties"]["torque"]
     assert (torque["description"], torque["x-si-unit"]) == ("torque along the path, SI", "N m")
@@ -119,7 +119,7 @@ def test_an_answer_has_the_attributes_of_a_value():
     found = declared.from_attributes(Measured, value, error=None)
     assert declared.document(found) == {"torque": 1.5, "error": None, "told": True, "count": 3, "means": [1.0, 2.0]}
     assert declared.units(found) == {"torque": "N m", "means": "N m"}
-    assert declared.schema(Measured).model_json_schema()["properties"]["means"]["x-si-unit"] == "N m"
+    assert schemas.schema(Measured).model_json_schema()["properties"]["means"]["x-si-unit"] == "N m"
     with pytest.raises(AttributeError):
         declared.from_attributes(Measured, value)
 
@@ -143,14 +143,14 @@ def test_a_table_of_quantities():
     assert declared.document(Sizes(length=1.0, width=None)) == {"length": 1.0}
     assert declared.units(Sizes(length=1.0, width=None)) == {"length": "m"}
     assert declared.document(Sizes(length=1.0, width=2.0)) == {"length": 1.0, "width": 2.0}
-    schema = declared.schema(Ends).model_json_schema()
+    schema = schemas.schema(Ends).model_json_schema()
     assert schema["properties"]["width"]["description"] == "width of it, SI"
     assert declared.units_of(Ends) == {"length": "m", "width": "m"}
-    assert declared.schema(Sizes).model_json_schema()["required"] == ["length"]
+    assert schemas.schema(Sizes).model_json_schema()["required"] == ["length"]
 
 
 def test_a_document_is_valid_by_its_schema_and_another_is_not():
-    model = declared.schema(Path)
+    model = schemas.schema(Path)
     model.model_validate(DOCUMENT)
     for wrong in ({**DOCUMENT, "more": 1}, {**DOCUMENT, "places": "none"}, {"torque": 1.0}):
         with pytest.raises(ValidationError):
@@ -170,4 +170,4 @@ def test_a_name_of_an_array_is_an_array():
             """Forces."""
             return np.array([1.0])
 
-    assert declared.schema(Of).model_json_schema()["properties"]["forces"]["type"] == "array"
+    assert schemas.schema(Of).model_json_schema()["properties"]["forces"]["type"] == "array"

@@ -19,30 +19,27 @@ from ballscrew.faces.page.vocabulary import OPTIONS, vocabulary
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web import question_api
 from ballscrew.faces.web.bodies import BandBody, FitBody, HandOverBody, ReportBody, SweepBody
-from ballscrew.questions.axis.options import AxisOptions
-from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.check.options import CheckOptions
-from ballscrew.questions.compare_designs.question import CompareOptions
-from ballscrew.questions.compensation.options import CompensationOptions
-from ballscrew.questions.condition.options import ConditionOptions
-from ballscrew.questions.duty.options import DutyOptions
-from ballscrew.questions.duty.question import TraceOptions
-from ballscrew.questions.fit.options import FitOptions
-from ballscrew.questions.fit_motion.options import FitMotionOptions
-from ballscrew.questions.hand_over.options import HandOverOptions
-from ballscrew.questions.optimise.options import OptimiseOptions
+from ballscrew.questions.axis import AxisOptions
+from ballscrew.questions.band import BandOptions
+from ballscrew.questions.check import CheckOptions
+from ballscrew.questions.compare import CompareOptions
+from ballscrew.questions.compensation import CompensationOptions
+from ballscrew.questions.condition import ConditionOptions
+from ballscrew.questions.duty import DutyOptions, TraceOptions
+from ballscrew.questions.fit import FitMotionOptions, FitOptions
+from ballscrew.questions.hand_over import HandOverOptions
+from ballscrew.questions.optimise import OptimiseOptions
 from ballscrew.questions.records import QUESTIONS
-from ballscrew.questions.reversal.options import ReversalOptions
-from ballscrew.questions.ripple.options import RippleOptions
-from ballscrew.questions.select.options import ListOptions, SelectOptions
-from ballscrew.questions.select.question import TableOptions
-from ballscrew.questions.sensitivity.options import SensitivityOptions
-from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
+from ballscrew.questions.reversal import ReversalOptions
+from ballscrew.questions.ripple import RippleOptions
+from ballscrew.questions.select import ListOptions, SelectOptions, TableOptions
+from ballscrew.questions.sensitivity import SensitivityOptions
+from ballscrew.questions.service import ReadingOptions, ServiceOptions
 from ballscrew.questions.shared.option_values import read
 from ballscrew.questions.shared.options import Option, Range, body_fields, options_of, vocabulary_of
 from ballscrew.questions.shared.question import CaseOptions
-from ballscrew.questions.sweep.options import SweepOptions
-from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
+from ballscrew.questions.sweep import SweepOptions
+from ballscrew.questions.warm_up import DriftOptions, WarmUpOptions
 
 #: The classes of options of each command.
 COMMANDS = {

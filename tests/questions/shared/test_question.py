@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 import ballscrew.questions
 from ballscrew.basis.errors import InputError
 from ballscrew.faces.cli import main
+from ballscrew.questions import responses
 from ballscrew.questions.records import QUESTIONS
 from ballscrew.questions.shared.options import options_of
 
@@ -18,8 +19,19 @@ def name(question):
 
 
 def test_every_question_that_is_a_record_is_listed():
-    folders = {path.parent.name for path in Path(ballscrew.questions.__file__).parent.glob("*/question.py")}
-    assert len(QUESTIONS) == len(folders - {"shared"})
+    files = [*Path(ballscrew.questions.__file__).parent.glob("*/__init__.py")]
+    assert len(QUESTIONS) == sum(" = Question(\n" in path.read_text(encoding="utf-8") for path in files)
+
+
+@pytest.mark.parametrize("question", QUESTIONS, ids=name)
+def test_every_record_has_its_answer_and_its_models(question):
+    assert inspect.get_annotations(question.answer.prepare) == {"request": "Request", "return": "Work"}
+    assert question.name in responses.OF_QUESTIONS
+    assert (
+        bool(question.endpoint.plan)
+        == (question.name in responses.OF_PLANS)
+        == hasattr(question.answer, "plan_document")
+    )
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=name)

@@ -6,8 +6,8 @@ from ballscrew import evaluator
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.recordings import KNOWN
-from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.shared import declared
+from ballscrew.questions.band import BandOptions
+from ballscrew.questions.shared import schemas
 from ballscrew.questions.sweep import band, compute
 from ballscrew.questions.sweep.answer import SweepResults, document
 from support.commands import ROOT
@@ -24,7 +24,7 @@ def test_every_output_is_in_the_document_as_it_is_in_the_dataset(banded):
     if banded:
         dataset = band.with_band(CASE, plan, dataset, BandOptions(samples=16))
     answer = plain(document(CASE, plan, dataset))
-    declared.schema(SweepResults).model_validate({name: answer[name] for name in ("axes", "outputs")})
+    schemas.schema(SweepResults).model_validate({name: answer[name] for name in ("axes", "outputs")})
     assert list(answer["axes"]) == ["axial_load", "screw_speed"]
     for name in ("efficiency", "screw_torque", "valid"):
         assert answer["outputs"][name]["values"] == dataset[name].to_numpy().tolist()

@@ -14,8 +14,7 @@ from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.calibrations import calibrated, calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.band import compute
-from ballscrew.questions.validate.compute import evaluate, request, shipped_rows
-from ballscrew.questions.validate.uncertainty import SAMPLES, with_bands
+from ballscrew.questions.validate.compute import SAMPLES, evaluate, request, shipped_rows, with_bands
 
 REFERENCE = FrictionModel.reference()
 STOCK = SETS["hiwin-stock"]

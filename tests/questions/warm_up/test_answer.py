@@ -9,12 +9,12 @@ import pytest
 
 from ballscrew.basis.output.sheet import Chart, Columns, Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.shared import declared
+from ballscrew.questions import responses
+from ballscrew.questions.shared import schemas
 from ballscrew.questions.warm_up import compute, verdicts
-from ballscrew.questions.warm_up.answer import BesideWarmUp, WarmUpResults, document
+from ballscrew.questions.warm_up.answer import WarmUpResults, document
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
-from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet
 from support.answers import without_unit
 from support.commands import ROOT
@@ -30,7 +30,7 @@ def report():
 
 def test_every_number_over_time_is_on_every_face(report):
     """A number is one field: nothing else has to name it."""
-    answer, schema = document(report), declared.schema(WarmUpResults).model_json_schema()["properties"]
+    answer, schema = document(report), schemas.schema(WarmUpResults).model_json_schema()["properties"]
     (series,) = (block for block in sheet(report).of_kind(Columns) if block.name == "over time")
     columns = {column.name: column.values for column in series.columns}
     for name, quantity in SERIES.items():
@@ -48,7 +48,7 @@ def test_every_number_over_time_is_on_every_face(report):
 
 
 def test_every_number_of_the_steady_state_is_on_every_face(report):
-    answer, schema = document(report), declared.schema(WarmUpResults).model_json_schema()
+    answer, schema = document(report), schemas.schema(WarmUpResults).model_json_schema()
     described = schema["$defs"]["Equilibrium"]["properties"]
     (steady,) = (block for block in sheet(report).of_kind(Table) if block.name == "steady state")
     rows = {row[0]: row[1].value for row in steady.rows}
@@ -65,7 +65,7 @@ def test_every_number_of_the_steady_state_is_on_every_face(report):
 def test_answers_are_valid_by_their_schema(settings, starved):
     report = warmed_up(case_file.load(EXAMPLE, settings, moves=True), hours=0.5)
     found = document(report)
-    declared.response(WarmUpResults, "WarmUp", beside=BesideWarmUp).model_validate({**found, "sheet": {}})
+    responses.OF_QUESTIONS["warm-up"].model_validate({**found, "sheet": {}})
     assert (found["results"]["full_bath"] is not None) == starved
 
 
@@ -85,7 +85,7 @@ def test_every_number_has_a_unit(report):
 
 def test_self_heating_has_units():
     heating = self_heating(case_file.load(EXAMPLE, [], moves=True))
-    found = with_self_heating({"verdicts": []}, heating)
+    found = heating.within({"verdicts": []})
     assert found["results"]["self_heating"]["oil_temperature"] == heating.equilibrium.oil_temperature
     assert found["results"]["self_heating"].keys() == found["units"]["self_heating"].keys()
     assert found["units"]["self_heating"]["flooded_torque_given"] == "N m"

@@ -13,10 +13,10 @@ import typer
 
 from ballscrew.faces.cli.options import CaseFile, KeepGoing, Output, Row, Rows, SelfHeating, Verbose, file_option
 from ballscrew.faces.cli.progress import log_on_stderr, print_engine, print_notes_of_rows, progress
-from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.check.options import CheckOptions, given
+from ballscrew.questions.band import BandOptions
+from ballscrew.questions.check import CheckOptions, given
 from ballscrew.questions.shared.question import Answer, CaseOptions, Done
-from ballscrew.questions.sweep.options import SweepOptions
+from ballscrew.questions.sweep import SweepOptions
 
 if TYPE_CHECKING:
     from ballscrew.cases.case_files.case import Case
@@ -109,16 +109,15 @@ def _operating_point(case: Case, self_heating: bool) -> Answer:
     from ballscrew.questions.run.answer import document
     from ballscrew.questions.run.compute import run
     from ballscrew.questions.run.sheet import sheet
-    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
-    heating = None
-    if self_heating:
-        from ballscrew.questions.warm_up import self_heating as studies
+    if not self_heating:
+        result = run(case)
+        return Answer(sheet(result), lambda: document(result))
+    from ballscrew.questions.warm_up import self_heating as studies
 
-        heating = studies.self_heating(case)
-    result = run(case if heating is None else heating.warm)
-    records = () if heating is None else heating.records
-    return Answer(sheet(result, heating=records), lambda: with_self_heating(document(result), heating))
+    heating = studies.self_heating(case)
+    warm = run(heating.warm)
+    return Answer(sheet(warm, heating=heating.records), lambda: heating.within(document(warm)))
 
 
 def _run_rows(cases: OfRows[RowCase], output: Output, to: Path | None, *, keep_going: bool) -> None:
@@ -142,6 +141,7 @@ def _check_band(is_named: bool, options: BandOptions, to: Path | None, self_heat
     """Raise :class:`~ballscrew.basis.errors.InputError` for options without a band, and a picture that cannot be."""
     from ballscrew.basis.errors import Fault, InputError, raise_if_any
     from ballscrew.questions.shared.charts import check_picture
+    from ballscrew.questions.shared.option_values import without_band
 
     values = {
         "--samples": options.samples,
@@ -150,13 +150,7 @@ def _check_band(is_named: bool, options: BandOptions, to: Path | None, self_heat
         "--to": to,
     }
     if not is_named:
-        raise_if_any(
-            [
-                Fault(name, "needs --band", str(value), "add --band")
-                for name, value in values.items()
-                if value is not None
-            ]
-        )
+        raise_if_any(without_band(values))
     if to is not None and self_heating:
         problem = "draws a curve over the speed, at each of which the oil has another temperature"
         raise InputError(Fault("--to", problem, str(to), "leave it out, or see ballscrew sweep --self-heating"))
@@ -187,13 +181,12 @@ def _warm_band(case: Case, options: BandOptions, done: Done) -> Answer:
     from ballscrew.questions.band.sheet import sheet
     from ballscrew.questions.run.compute import run
     from ballscrew.questions.warm_up.self_heating import self_heating
-    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     heating = self_heating(case)
     report = compute.band(heating.warm, options, done, heat_samples(heating, only_given=options.only_given))
     return Answer(
         sheet(heating.warm, report, heating=heating.records),
-        lambda: with_self_heating(document(run(heating.warm), report), heating),
+        lambda: heating.within(document(run(heating.warm), report)),
     )
 
 
@@ -226,7 +219,7 @@ def check(
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.
     """
-    from ballscrew.questions.check.compute import Options, document, every_row, list_document, one
+    from ballscrew.questions.check.answer import Options, document, every_row, list_document, one
     from ballscrew.questions.check.sheet import of_rows, sheet
     from ballscrew.questions.shared.every_row import check_path
 
@@ -268,7 +261,7 @@ class _Screws(NamedTuple):
 def _screws(name: str | None, rows: Path | None, row: str | None, *, every: bool, to: Path | None) -> _Screws:
     """The screws by the names on the command line."""
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.check.compute import is_case
+    from ballscrew.questions.check.answer import is_case
 
     case = name if name is not None and rows is not None and is_case(name) else None
     if row is not None and case is None:

@@ -34,12 +34,12 @@ def list_rows(
 ) -> None:
     """All rows, one line each."""
     from ballscrew.cases.screw_tables import catalogue as tables
-    from ballscrew.questions.catalogue import text
+    from ballscrew.questions import catalogue
 
     screws, notes = tables.load(rows, keep_going)
     chosen = tables.chosen(screws, " ".join(words or []), rows)
     print_notes_of_rows(notes)
-    print_answer(lambda: text.list_text(chosen), lambda: tables.list_document(chosen), as_json=as_json)
+    print_answer(lambda: catalogue.list_text(chosen), lambda: tables.list_document(chosen), as_json=as_json)
 
 
 @catalogue.command()
@@ -53,7 +53,7 @@ def show(
     """One row: what is listed, what follows from it, what was assumed."""
     from ballscrew.basis.errors import Fault, InputError
     from ballscrew.cases.screw_tables.catalogue import case_text, load, named, show_document
-    from ballscrew.questions.catalogue import text
+    from ballscrew.questions import catalogue
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
@@ -63,7 +63,7 @@ def show(
     if as_case:
         typer.echo(case_text(row))
     else:
-        print_answer(lambda: text.show_text(row), lambda: show_document(row), as_json=as_json)
+        print_answer(lambda: catalogue.show_text(row), lambda: show_document(row), as_json=as_json)
 
 
 @catalogue.command()
@@ -87,13 +87,13 @@ def own(
     from ballscrew.basis.errors import Fault, InputError
     from ballscrew.cases.screw_tables.catalogue import case_text
     from ballscrew.cases.screw_tables.own_nut import numbers_in, own_nut_of
-    from ballscrew.questions.catalogue import text
+    from ballscrew.questions import catalogue
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
     nut = own_nut_of(numbers_in(numbers))
     if as_case:
         typer.echo(case_text(nut.row, nut.estimates))
-        print_notes_of_rows([f"warning: {line}" for line in text.warnings(nut)])
+        print_notes_of_rows([f"warning: {line}" for line in catalogue.warnings(nut)])
     else:
-        print_answer(lambda: text.text(nut), lambda: text.document(nut), as_json=as_json)
+        print_answer(lambda: catalogue.own_nut_text(nut), lambda: catalogue.own_nut_document(nut), as_json=as_json)

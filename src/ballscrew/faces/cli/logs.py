@@ -12,8 +12,7 @@ import typer
 from ballscrew.faces.cli.cases import cases_of_rows, check_rows
 from ballscrew.faces.cli.options import Output, Row, Rows, Verbose, file_option
 from ballscrew.faces.cli.progress import print_engine, print_notes_of_rows, progress
-from ballscrew.questions.fit.options import FitOptions
-from ballscrew.questions.fit_motion.options import FitMotionOptions
+from ballscrew.questions.fit import FitMotionOptions, FitOptions
 from ballscrew.questions.shared.options import options_of
 from ballscrew.questions.shared.question import MODEL_NAMES, CaseOptions
 
@@ -89,12 +88,12 @@ def fit(
     loaded = case_options.build(tables, case.parent)
 
     # pandas is slow to import: only for a good case
-    from ballscrew.questions.fit_motion.log import is_moving
+    from ballscrew.questions.fit.log import is_moving_log
     from ballscrew.questions.shared.charts import check_picture
 
     if picture is not None:
         check_picture(picture, "--picture")
-    if moving or test is not None or is_moving(log, written["columns"] or []):
+    if moving or test is not None or is_moving_log(log, written["columns"] or []):
         _check_unused(written, to)
         sheet, size = _fit_motion(loaded, log, test, written, output)
     else:
@@ -160,7 +159,7 @@ def _fit_torques(
 
         assumed: Sequence[str] = ()
         if options.self_heating:
-            from ballscrew.questions.fit.warm_log import warm_log
+            from ballscrew.questions.fit.compute import warm_log
 
             steady, assumed = warm_log(case, steady, options.kind)
         report = dataclasses.replace(compute.fit(case, steady, options), assumed=assumed)
@@ -210,25 +209,23 @@ def _fit_motion(
     case: Case, log: Path, test: Path | None, written: Mapping[str, Any], output: Output
 ) -> tuple[Sheet, int]:
     """Fit a case to a moving log, and print the fit. Returns its sheet, and the number of rows of the log."""
-    from ballscrew.questions.fit_motion.log import moving_log
+    from ballscrew.questions.fit.log import moving_log
     from ballscrew.questions.shared.option_values import read
 
     options = read(FitMotionOptions, written)
     read_log = moving_log(case, log, options)
     test_log = None if test is None else moving_log(case, test, options, usual_gain=read_log.gain)
+    # solvers are slow to import: only for logs that can be read
+    from ballscrew.questions.fit import moving
+
     if options.steady:
-        from ballscrew.questions.fit_motion import steady
-
-        friction = steady.of_logs(read_log, test_log)
-        output.print(steady.sheet(friction, read_log), lambda: steady.document(friction, read_log))
-        return steady.sheet(friction, read_log), sum(one.rows for one in friction.speeds)
-    # solvers are slow to import: only for a log that can be read
-    from ballscrew.questions.fit_motion import answer
-    from ballscrew.questions.fit_motion.answer import document, sheet
-
-    motion = answer.fit(case, read_log, test_log, options)
-    fit_sheet = sheet(case, motion)
-    output.print(fit_sheet, lambda: document(case, motion))
+        friction = moving.friction_over_speed(read_log, test_log)
+        steady = moving.sheet_over_speed(friction, read_log)
+        output.print(steady, lambda: moving.document_over_speed(friction, read_log))
+        return steady, sum(one.rows for one in friction.speeds)
+    motion = moving.fit(case, read_log, test_log, options)
+    fit_sheet = moving.sheet(case, motion)
+    output.print(fit_sheet, lambda: moving.document(case, motion))
     return fit_sheet, motion.equation.used.size
 
 
@@ -264,9 +261,9 @@ def _fit_rows(
     from ballscrew.basis.errors import raise_if_any
     from ballscrew.cases.case_files import fitted_case
     from ballscrew.faces.sheets import files
-    from ballscrew.questions.fit import rows as fit_rows
+    from ballscrew.questions.fit import compute
     from ballscrew.questions.fit.answer import document
-    from ballscrew.questions.fit.log import read_options
+    from ballscrew.questions.fit.log import logs_of_rows, read_options
     from ballscrew.questions.fit.sheet import of_rows
 
     keep_going: bool = written["keep_going"]
@@ -278,7 +275,7 @@ def _fit_rows(
     table = to if to is not None and _is_table(to) else None
     paths = {} if to is None or table is not None else _paths(to, cases.found, case)
     with progress("logs") as done:
-        logs = fit_rows.logs(cases.found, rows, options, keep_going=keep_going, done=done)
+        logs = logs_of_rows(cases.found, rows, options, keep_going=keep_going, done=done)
 
     left_out: list[Fault] = []
 
@@ -292,7 +289,7 @@ def _fit_rows(
             fitted_case.save(path, row_case.tables, case.parent, row_case.case, report.model)
 
     with progress("fits") as done:
-        fitted = fit_rows.fits(cases.found, logs.found, options, keep_going=keep_going, each=save, done=done)
+        fitted = compute.fits_of_rows(cases.found, logs.found, options, keep_going=keep_going, each=save, done=done)
     by_place = {each.place: each for each in cases.found.values()}
     reports = {by_place[place].row.name: report for place, report in fitted.found.items()}
 
@@ -327,9 +324,9 @@ def _paths(folder: Path, cases: Mapping[str, RowCase], case: Path) -> dict[str, 
     """The calibrated case of each row in a folder, which has to be writable and not to be the case itself."""
     from ballscrew.basis.atomic_files import check_writable
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.questions.fit.rows import files
+    from ballscrew.questions.fit.compute import files_of_rows
 
-    paths = files(cases, folder)
+    paths = files_of_rows(cases, folder)
     for path in paths.values():
         if path.resolve() == case.resolve():
             raise InputError(Fault("--to", "would overwrite the case itself", str(path), "choose another folder"))

@@ -26,7 +26,7 @@ def command_of(question: Question) -> Callable[..., None]:
         case = cases[0] if cases else None
         need = next((path for file in question.reads if file.is_need for path in read[file.name]), None)
         request = Request(files=read, case=case, need=need, case_options=case_options, written=written, to=to)
-        work = question.prepare(request)
+        work = question.answer.prepare(request)
         if work.files is None:
             _check_files(to, flag, question.own_kinds)  # last of the checks, as it makes folders
         with progress(work.name, work.cost) if work.name else contextlib.nullcontext(_no_bar) as done:

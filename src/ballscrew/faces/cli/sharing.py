@@ -13,8 +13,8 @@ import typer
 from ballscrew.faces.cli.options import AsJson, CaseFile, Output, file_option, print_answer
 from ballscrew.faces.cli.progress import progress
 from ballscrew.faces.report.options import ReportOptions
-from ballscrew.questions.compensation.options import CompensationOptions
-from ballscrew.questions.hand_over.options import HandOverOptions
+from ballscrew.questions.compensation import CompensationOptions
+from ballscrew.questions.hand_over import HandOverOptions
 from ballscrew.questions.shared.question import CaseOptions
 
 if TYPE_CHECKING:

@@ -36,14 +36,14 @@ from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.condition.options import ConditionOptions
+from ballscrew.questions.condition import ConditionOptions
 from ballscrew.questions.duty.compute import NUMBERS
-from ballscrew.questions.fit.options import FitOptions
-from ballscrew.questions.optimise.options import OptimiseOptions
-from ballscrew.questions.reversal.options import ReversalOptions
-from ballscrew.questions.ripple.options import RippleOptions
-from ballscrew.questions.sensitivity.options import SensitivityOptions
-from ballscrew.questions.service.options import ServiceOptions
+from ballscrew.questions.fit import FitOptions
+from ballscrew.questions.optimise import OptimiseOptions
+from ballscrew.questions.reversal import ReversalOptions
+from ballscrew.questions.ripple import RippleOptions
+from ballscrew.questions.sensitivity import SensitivityOptions
+from ballscrew.questions.service import ServiceOptions
 from ballscrew.questions.shared.charts import MECHANISM_COLOURS
 from ballscrew.questions.shared.options import Kind, vocabulary_of
 from ballscrew.questions.warm_up.compute import SERIES

@@ -34,10 +34,9 @@ from ballscrew.faces.sheets.report_blocks import (
     sentence,
 )
 from ballscrew.physics.sizing.makers_tables import GENERAL, speed_limit_of
-from ballscrew.questions.band import compute, sheet
-from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.band import BandOptions, compute, sheet
 from ballscrew.questions.band.sheet import tornado
-from ballscrew.questions.check.compute import Checked, checked
+from ballscrew.questions.check.answer import Checked, checked
 from ballscrew.questions.check.sheet import unlisted_ratings
 from ballscrew.questions.duty.compute import DutyReport, duty
 from ballscrew.questions.run import sheet as run_sheet

@@ -26,13 +26,12 @@ from ballscrew.faces.sheets.report_blocks import (
     sentence,
 )
 from ballscrew.physics.sizing.checks import Check
+from ballscrew.questions.band import BandOptions, sheet
 from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import sheet
 from ballscrew.questions.band.compute import BandReport
-from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.band.sheet import tornado
-from ballscrew.questions.check.compute import Checked, checked
-from ballscrew.questions.compare_designs import answer
+from ballscrew.questions.check.answer import Checked, checked
+from ballscrew.questions.compare import answer
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.run.sheet import meaning
 from ballscrew.questions.shared import check_lines

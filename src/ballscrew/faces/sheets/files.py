@@ -1,6 +1,6 @@
-"""A sheet as tables in files: all in a workbook, the first one of columns in CSV; numbers in the units of headings.
+"""A sheet in a file: as tables (.csv has one, a workbook .xlsx all), in the units of headings, or as a picture.
 
-A sheet written to a file: tables (.csv, .xlsx) or a picture (.png, .svg, .pdf).
+Pictures are .png, .svg and .pdf.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import dataclasses
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,9 +18,16 @@ from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.output.sheet import Cell, Column, Columns, Number, Share, Sheet, Table
 from ballscrew.questions.shared import charts, every_row
-from ballscrew.questions.shared.every_row import RowTable, write_csv, xlsx_bytes
+from ballscrew.questions.shared.every_row import write_csv, xlsx_bytes
 
 _DIGITS = 12
+
+
+class RowTable(NamedTuple):
+    """Headings, and the cells of each row below them."""
+
+    headings: Sequence[str]
+    rows: Sequence[Sequence[Any]]
 
 
 def write_tables(to: Path, sheet: Sheet, name: str = "") -> None:
@@ -30,11 +37,11 @@ def write_tables(to: Path, sheet: Sheet, name: str = "") -> None:
     """
     with atomic_write("--to", to) as path:
         if to.suffix.lower() == ".xlsx":
-            path.write_bytes(xlsx_bytes({block.name: rows_of(block) for block in sheet.of_kind(Table, Columns)}))
+            path.write_bytes(xlsx_bytes({block.name: _lines(block) for block in sheet.of_kind(Table, Columns)}))
         else:
             named = [block for block in sheet.of_kind(Columns, Table) if block.name == name]
             first, *_ = [*named, *sheet.of_kind(Columns), *sheet.of_kind(Table)]
-            write_csv(path, rows_of(first))
+            write_csv(path, _lines(first))
 
 
 def rows_of(block: Table | Columns) -> RowTable:
@@ -42,6 +49,11 @@ def rows_of(block: Table | Columns) -> RowTable:
     columns = list(_of_columns(block) if isinstance(block, Columns) else _of_table(block))
     rows = zip(*(values for _, values in columns), strict=True)
     return RowTable([heading for heading, _ in columns], [list(row) for row in rows])
+
+
+def _lines(block: Table | Columns) -> list[Sequence[Any]]:
+    table = rows_of(block)
+    return [table.headings, *table.rows]
 
 
 def _of_columns(block: Columns) -> Iterator[tuple[str, Sequence[Any]]]:

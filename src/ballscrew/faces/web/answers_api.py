@@ -19,14 +19,13 @@ from ballscrew.faces.web.bodies import MOST_BYTES, MOST_VALUES, CaseBody, Tables
 from ballscrew.faces.web.endpoint_parts import as_bytes, cancellable, of_tables, queue_of
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue
-from ballscrew.questions.check import compute
-from ballscrew.questions.check.compute import with_nut_named
+from ballscrew.questions import responses
+from ballscrew.questions.check.answer import with_nut_named
 from ballscrew.questions.curves import Curve, curves
-from ballscrew.questions.run import response
 from ballscrew.questions.run.compute import Run
-from ballscrew.questions.shared import answer_parts
+from ballscrew.questions.shared import schemas
 from ballscrew.questions.sweep import compute as sweeps
-from ballscrew.questions.sweep.answer import Sweep, document
+from ballscrew.questions.sweep.answer import document
 
 #: Designs beside the case at most.
 MOST_BESIDE = 8
@@ -43,51 +42,51 @@ class AnswersBody(CaseBody):
     beside: list[Tables] = Field(default_factory=list[Tables], max_length=MOST_BESIDE)
 
 
-class RunLine(answer_parts.Closed):
+class RunLine(schemas.Closed):
     """The run of the case (``place`` 0), or of a design beside it."""
 
     question: Literal["run"]
     place: int
-    answer: response.Run
+    answer: responses.Run
 
 
-class CheckLine(answer_parts.Closed):
+class CheckLine(schemas.Closed):
     """The checks of the case (``place`` 0), or of a design beside it."""
 
     question: Literal["check"]
     place: int
-    answer: compute.Checks
+    answer: responses.Checks
 
 
-class CurveLine(answer_parts.Closed):
+class CurveLine(schemas.Closed):
     """A curve around the operating point; ``cold_and_hot`` where the oil follows the temperature."""
 
     question: Literal["over_speed", "cold_and_hot", "over_both", "over_load"]
     place: Literal[0]
-    answer: Sweep
+    answer: responses.Sweep
 
 
-class DrawingLine(answer_parts.Closed):
+class DrawingLine(schemas.Closed):
     """The ball between its grooves, to be shown in any units."""
 
     question: Literal["drawing"]
     place: Literal[0]
-    answer: answer_parts.Drawing
+    answer: schemas.Drawing
 
 
-class CurveSweep(answer_parts.Closed):
+class CurveSweep(schemas.Closed):
     """The sweep of a curve, as which it may be asked for by itself: the rest of a body of ``/sweep``."""
 
     vary: dict[str, str]
     outputs: list[str]
 
 
-class ProblemLine(answer_parts.Closed):
+class ProblemLine(schemas.Closed):
     """A question that has no answer, and why; a curve has its sweep, which may be started as a job."""
 
     question: Literal["run", "check", "over_speed", "cold_and_hot", "over_both", "over_load", "drawing"]
     place: int
-    problem: answer_parts.Problem
+    problem: schemas.Problem
     sweep: CurveSweep | None = None
 
 

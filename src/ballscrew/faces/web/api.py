@@ -62,24 +62,19 @@ from ballscrew.faces.web.endpoint_parts import (
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.physics.sizing import catalogue as shipped
-from ballscrew.questions.band import compute
-from ballscrew.questions.band.answer import Band
-from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.catalogue import answer, text
-from ballscrew.questions.check.compute import Checks, with_nut_named
-from ballscrew.questions.fit.answer import Examples
+from ballscrew.questions import responses
+from ballscrew.questions.band import BandOptions, compute
+from ballscrew.questions.catalogue import own_nut_document
+from ballscrew.questions.check.answer import with_nut_named
 from ballscrew.questions.hand_over.answer import Targets, targets
 from ballscrew.questions.optimise import need_schema
-from ballscrew.questions.run import response
-from ballscrew.questions.shared import answer_parts, option_values
+from ballscrew.questions.shared import option_values, schemas
+from ballscrew.questions.sweep import SweepOptions
 from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweeps
-from ballscrew.questions.sweep.answer import Sweep
 from ballscrew.questions.sweep.band import INNER, with_band
-from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.validate import answer as validation_documents
 from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate.answer import ValidationEntry
 
 #: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
@@ -94,14 +89,18 @@ for _part in (answers_api, file_api, question_api, module_api, job_api):
 # -- of a case --------------------------------------------------------------------------------------
 
 
-@router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=response.Run, responses=openapi.problems_of())
+@router.post(
+    "/run", openapi_extra=openapi.body(CaseBody), response_model=responses.Run, responses=openapi.problems_of()
+)
 async def run(request: Request) -> Response:
     """Friction at the operating point of a case: the document of ``ballscrew run --json``, with sentences."""
     body: CaseBody = await read(request, CaseBody)
     return await of_run(request, body.case, lambda result: as_json(documents.run(result)))
 
 
-@router.post("/check", openapi_extra=openapi.body(CaseBody), response_model=Checks, responses=openapi.problems_of())
+@router.post(
+    "/check", openapi_extra=openapi.body(CaseBody), response_model=responses.Checks, responses=openapi.problems_of()
+)
 async def check(request: Request) -> Response:
     """Life, strength and speed against their limits: the document of ``ballscrew check --json`` but its name."""
     body: CaseBody = await read(request, CaseBody)
@@ -118,7 +117,9 @@ async def drawing(request: Request) -> Response:
     return await of_run(request, body.case, lambda result: Response(drawing(result), media_type="image/svg+xml"))
 
 
-@router.post("/sweep", openapi_extra=openapi.body(SweepBody), response_model=Sweep, responses=openapi.problems_of())
+@router.post(
+    "/sweep", openapi_extra=openapi.body(SweepBody), response_model=responses.Sweep, responses=openapi.problems_of()
+)
 async def sweep(request: Request) -> Response:
     """Friction over ranges of load, speed or any other field: the document of ``ballscrew sweep --json``."""
     body: CaseBody = await read(request, SweepBody)
@@ -149,7 +150,7 @@ async def sweep(request: Request) -> Response:
     return await heavy(request, work)
 
 
-@post(router, "/band", BandBody, Band)
+@post(router, "/band", BandBody, responses.Band)
 def band(body: CaseBody, done: Deadline) -> Response:
     """The band of a case and its causes: the document of ``ballscrew run --band --json``, with sentences."""
     options, case = option_values.read(BandOptions, dict(body)), case_of(body.case)
@@ -186,13 +187,13 @@ async def report(
 # -- of a catalogue, and of the program -------------------------------------------------------------
 
 
-@post(router, "/own-nut", OwnNutBody, answer.OwnNut, is_quick=always)
+@post(router, "/own-nut", OwnNutBody, responses.OwnNut, is_quick=always)
 def own_nut(body: OwnNutBody, _: object) -> Response:
     """A case of few numbers, what was estimated in it: the document of ``ballscrew catalogue own --json``."""
-    return as_json(text.document(own_nut_of(body.numbers)))
+    return as_json(own_nut_document(own_nut_of(body.numbers)))
 
 
-@router.get("/catalogue", response_model=answer.Catalogue, responses=openapi.problems_of())
+@router.get("/catalogue", response_model=responses.Catalogue, responses=openapi.problems_of())
 async def catalogue(
     words: Annotated[str, Query(description="all of them must be in a row")] = "",
 ) -> Response:
@@ -200,7 +201,7 @@ async def catalogue(
     return as_json(list_document(chosen(shipped.catalogue(), words)))
 
 
-@router.get("/catalogue/{name}", response_model=answer.Row, responses=openapi.problems_of(404))
+@router.get("/catalogue/{name}", response_model=responses.Row, responses=openapi.problems_of(404))
 async def row(name: openapi.RowName) -> Response:
     """One row: the document of ``ballscrew catalogue show --json``, and the case that ``--case`` writes, as tables."""
     try:
@@ -210,7 +211,7 @@ async def row(name: openapi.RowName) -> Response:
     return as_json({**show_document(listed), "case": tomlkit.parse(case_text(listed)).unwrap()})
 
 
-@router.get("/validate", response_model=list[ValidationEntry], responses=openapi.problems_of())
+@router.get("/validate", response_model=list[responses.ValidationEntry], responses=openapi.problems_of())
 async def validate(
     request: Request,
     set: Annotated[str, Query(json_schema_extra={"enum": ["", *validation.SETS]}, description="one set alone")] = "",
@@ -247,13 +248,11 @@ def _constant(path: str, document: Callable[[], Any], model: type, words: str) -
     router.get(path, name=name, description=words, response_model=model, responses=responses)(answer)
 
 
-_constant(
-    "/schema", json_schema, answer_parts.CaseSchema, "JSON Schema of a case file, as ``ballscrew schema`` prints it."
-)
+_constant("/schema", json_schema, schemas.CaseSchema, "JSON Schema of a case file, as ``ballscrew schema`` prints it.")
 _constant(
     "/need-schema",
     need_schema.json_schema,
-    answer_parts.NeedSchema,
+    schemas.NeedSchema,
     "JSON Schema of a need, as ``ballscrew schema --need`` prints it.",
 )
 _constant(
@@ -265,12 +264,12 @@ _constant(
 _constant(
     "/targets",
     targets,
-    Targets,
+    schemas.schema(Targets),
     "The targets of a hand-over, and the choices that each has.",
 )
 _constant(
     "/examples",
     starts.logs,
-    Examples,
+    responses.Examples,
     "Logs to try, each with its case: those of the folder ``examples`` of the repository.",
 )

@@ -24,11 +24,11 @@ from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.fit.options import FitOptions
-from ballscrew.questions.hand_over.options import HandOverOptions
+from ballscrew.questions.band import BandOptions
+from ballscrew.questions.fit import FitOptions
+from ballscrew.questions.hand_over import HandOverOptions
 from ballscrew.questions.shared.options import body_fields
-from ballscrew.questions.sweep.options import SweepOptions
+from ballscrew.questions.sweep import SweepOptions
 
 #: A case file has one or two kilobytes.
 MOST_BYTES = 65_536

@@ -13,8 +13,8 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.band import answer as band_documents
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.sheet import input_counts
-from ballscrew.questions.check import compute as check_documents
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.check import answer as check_documents
+from ballscrew.questions.check.answer import checked
 from ballscrew.questions.run import answer, compute
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.

@@ -43,15 +43,14 @@ from ballscrew.faces.web.endpoint_parts import always, as_json, heavy, post, wit
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.files.torque_logs.reading import preview
+from ballscrew.questions import responses
 from ballscrew.questions.fit import answer, compute
-from ballscrew.questions.fit.answer import Fit
-from ballscrew.questions.fit.log import read_options, steady_log
+from ballscrew.questions.fit.log import is_moving_log, read_options, steady_log
 from ballscrew.questions.fit.sheet import sheet
-from ballscrew.questions.fit_motion.log import is_moving
+from ballscrew.questions.hand_over import HandOverOptions
 from ballscrew.questions.hand_over import answer as hand_over_documents
-from ballscrew.questions.hand_over.answer import HandOver, blocks, lines
-from ballscrew.questions.hand_over.options import HandOverOptions
-from ballscrew.questions.shared import file_answer, option_values
+from ballscrew.questions.hand_over.answer import blocks, lines
+from ballscrew.questions.shared import option_values
 
 #: Media types of a project, by its ``kind``.
 KINDS = {"toml": "application/toml", "json": "application/json"}
@@ -59,7 +58,7 @@ KINDS = {"toml": "application/toml", "json": "application/json"}
 router = APIRouter()
 
 
-@post(router, "/open", OpenBody, file_answer.Opened)
+@post(router, "/open", OpenBody, responses.Opened)
 def open_file(body: OpenBody, _: Deadline) -> Response:
     """The designs of a case file, a project or a table of screws, unchecked: ``run`` finds their faults."""
     with written({"file": body.file}, tables=False) as paths:
@@ -94,29 +93,29 @@ async def project(
     return await heavy(request, work)
 
 
-@post(router, "/log", LogBody, answer.Log)
+@post(router, "/log", LogBody, responses.Log)
 def log(body: LogBody, _: Deadline) -> Response:
     """The columns of a log and what each is taken for, and the numbers of the case that may be fitted to it."""
     case = case_of(body.case)
     with written({"log": body.log}) as paths:
-        moving = is_moving(paths["log"], body.columns)
+        moving = is_moving_log(paths["log"], body.columns)
         columns = preview(paths["log"], body.columns)
     return as_json(answer.columns_document(columns, compute.candidates(case), moving=moving))
 
 
-@post(router, "/fit", FitBody, Fit)
+@post(router, "/fit", FitBody, responses.Fit)
 def fit(body: LogBody, done: Deadline) -> Response:
     """A case fitted to a log of torques: the document of ``ballscrew fit --json``, its sheet and the fitted case."""
     case = case_of(body.case)
     options = read_options(case, dict(body))
     with written({"log": body.log}) as paths:
-        if is_moving(paths["log"], body.columns):
+        if is_moving_log(paths["log"], body.columns):
             remedy = "give a log of load, speed and torque; this one is for ballscrew fit on the command line"
             raise InputError(Fault("log", "is of a moving axis", paths["log"].name, remedy))
         steady = steady_log(case, paths["log"], options, done)
     assumed: Sequence[str] = ()
     if options.self_heating:
-        from ballscrew.questions.fit.warm_log import warm_log
+        from ballscrew.questions.fit.compute import warm_log
 
         steady, assumed = warm_log(case, steady, options.kind)
     report = dataclasses.replace(compute.fit(case, steady, options, done), assumed=assumed)
@@ -128,7 +127,7 @@ def fit(body: LogBody, done: Deadline) -> Response:
     return with_sheet(document, sheet(case, report))
 
 
-@post(router, "/hand-over", HandOverBody, HandOver)
+@post(router, "/hand-over", HandOverBody, responses.HandOver)
 def hand_over(body: TargetBody, _: Deadline) -> Response:
     """A case as files for another program: the document of ``ballscrew hand-over --json``, with the files."""
     options = option_values.read(HandOverOptions, dict(body))

@@ -14,7 +14,7 @@ from ballscrew.faces.web.bodies import MOST_LOG_BYTES, content_of
 from ballscrew.faces.web.endpoint_parts import as_bytes
 from ballscrew.faces.web.jobs import Job, Jobs
 from ballscrew.faces.web.problems import Refused
-from ballscrew.questions.shared import file_answer
+from ballscrew.questions import responses
 
 #: Addresses whose requests may be jobs: all that may compute for more than two seconds.
 ADDRESSES = (
@@ -33,7 +33,7 @@ _Id = Annotated[str, Path(description="of the job", examples=["none"])]
     "/{address}",
     status_code=202,
     openapi_extra={"requestBody": {"required": True, "content": {"application/json": {"schema": {"type": "object"}}}}},
-    response_model=file_answer.Job,
+    response_model=responses.Job,
     responses=openapi.problems_of(404),
 )
 async def start(
@@ -51,7 +51,7 @@ async def start(
     return document
 
 
-@router.get("/{id}", response_model=file_answer.Job, responses=openapi.problems_of(404))
+@router.get("/{id}", response_model=responses.Job, responses=openapi.problems_of(404))
 async def state(
     request: Request,
     id: _Id,
@@ -77,7 +77,7 @@ async def answer(request: Request, id: _Id) -> Response:
     return Response(result.body, result.status, media_type=result.media_type)
 
 
-@router.delete("/{id}", response_model=file_answer.Job, responses=openapi.problems_of(404))
+@router.delete("/{id}", response_model=responses.Job, responses=openapi.problems_of(404))
 async def cancel(request: Request, id: _Id) -> Response:
     """Cancel a job: its work is killed at once."""
     jobs = _jobs_of(request)

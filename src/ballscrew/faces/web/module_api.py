@@ -27,8 +27,8 @@ from ballscrew.physics.components.materials import OF_A_GRADE
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.curves import axes_around
-from ballscrew.questions.shared.answer_parts import Closed, Number
-from ballscrew.questions.shared.answer_parts import Tables as AnyTables
+from ballscrew.questions.shared.schemas import Closed, Number
+from ballscrew.questions.shared.schemas import Tables as AnyTables
 
 #: A quantity as a case has it, with its unit or as a plain number.
 _WRITTEN = str | int | float

@@ -12,7 +12,7 @@ from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.faces.web import problems
 from ballscrew.faces.web.body_examples import examples
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.questions.shared.answer_parts import Problem
+from ballscrew.questions.shared.schemas import Problem
 
 _CASE, _SUMMARY = "Case", "Friction losses of ball screws"
 _HERE, _THERE = "#/$defs/", "#/components/schemas/"

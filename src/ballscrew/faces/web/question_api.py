@@ -27,6 +27,7 @@ from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, post, with_she
 from ballscrew.faces.web.limits import check_options
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
+from ballscrew.questions import responses
 from ballscrew.questions.records import QUESTIONS
 from ballscrew.questions.shared.options import body_fields, options_of
 from ballscrew.questions.shared.question import Question, Request, Sent
@@ -63,7 +64,7 @@ def _field(file: Sent) -> Any:
 def answer(question: Question, body: Body, done: Deadline) -> Response:
     """The answer to a body of a question: its document with its sheet."""
     with _request(question, body, done) as request:
-        result = question.prepare(request).answer(done)
+        result = question.answer.prepare(request).answer(done)
         return with_sheet(result.document(), result.sheet)
 
 
@@ -120,13 +121,13 @@ def _add(question: Question) -> None:
     name, help = question.name.replace("-", "_"), inspect.cleandoc(question.help).partition("\n\n")[0]
     words = f"{help} The document of ``ballscrew {question.name} --json``, with its sheet."
     body, plan = BODIES[question.name], question.endpoint.plan
-    post(router, f"/{question.name}", body, question.endpoint.response(), name=name, description=words)(work)
-    if plan is None:
+    post(router, f"/{question.name}", body, responses.OF_QUESTIONS[question.name], name=name, description=words)(work)
+    if not plan:
         return
 
     def planned(body: Body, done: Deadline) -> Response:
         with _request(question, body, done) as request:
-            return as_json(plan.document(request))
+            return as_json(question.answer.plan_document(request))
 
     def is_quick(body: Body) -> bool:
         return not _contents(question, dict(body))
@@ -135,9 +136,9 @@ def _add(question: Question) -> None:
         router,
         f"/{question.name}/plan",
         body,
-        plan.response(),
+        responses.OF_PLANS[question.name],
         name=f"{name}_plan",
-        description=plan.help,
+        description=plan,
         is_quick=is_quick,
     )(planned)
 

@@ -37,12 +37,13 @@ from ballscrew.basis.output.sheet import (
     warning_lines,
 )
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, Unit, quantities_of
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Record, Severity
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
-from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
-from ballscrew.questions.shared.elements_text import element_lines
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.axis import AxisOptions
+from ballscrew.questions.shared.check_lines import element_lines
+from ballscrew.questions.shared.declared import FINITE, envelope, from_attributes, table_of
+from ballscrew.questions.shared.question import Answer, Request, Work
 
 #: Places within the travel that the terminal shows.
 SHOWN = 5
@@ -158,16 +159,7 @@ class ChainReport:
             f"support at {self._place(at)}; {units.number(share)} is permitted; {alone} is critical without it, "
             "as in the checks"
         )
-        return Record(
-            "verdict.critical_speed",
-            "critical_speed",
-            message,
-            value=self.largest_speed,
-            limit=share * critical,
-            unit="rad/s",
-            holds=holds,
-            severity="info" if holds else "warning",
-        )
+        return _judged("critical_speed", message, holds, self.largest_speed, share * critical, "rad/s")
 
     def _load_record(self) -> Record:
         at, safety = self.least_buckling_load, float(self.case.limits.buckling_safety)
@@ -180,19 +172,16 @@ class ChainReport:
             f"{self._place(at)}, {alone} without it as in the checks; the largest load is {load}, and a safety of "
             f"{units.number(safety)} is asked for"
         )
-        return Record(
-            "verdict.buckling",
-            "buckling_load",
-            message,
-            value=self.largest_load,
-            limit=buckling / safety,
-            unit="N",
-            holds=holds,
-            severity="info" if holds else "warning",
-        )
+        return _judged("buckling_load", message, holds, self.largest_load, buckling / safety, "N")
 
     def _place(self, at: int) -> str:
         return units.shown(self.chain.position[at], SERIES["position"])
+
+
+def _judged(subject: str, message: str, holds: bool, value: float, limit: float, unit: str) -> Record:
+    severity: Severity = "info" if holds else "warning"
+    name = f"verdict.{subject.removesuffix('_load')}"
+    return Record(name, subject, message, severity=severity, holds=holds, value=value, limit=limit, unit=unit)
 
 
 def moves(tables: Mapping[str, Any]) -> bool:
@@ -415,3 +404,14 @@ def _stacked(report: ChainReport) -> Iterator[Band]:
         if np.any(share):
             yield Band(name, report.chain.position, below, below + share, _COLOURS[name], solid=True)
             below = below + share
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options, case = request.options(AxisOptions), request.load(moves)
+
+    def answer(_: object) -> Answer:
+        report = chain_of(case, options.at)
+        return Answer(sheet(report), lambda: document(report), f"{len(report.chain.position)} places")
+
+    return Work(answer)

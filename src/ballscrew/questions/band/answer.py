@@ -24,10 +24,8 @@ from ballscrew.physics.friction.validity import NUT_CONDITIONS
 from ballscrew.questions.band.compute import OF_MAKERS, BandReport
 from ballscrew.questions.run.answer import document as run_document
 from ballscrew.questions.run.compute import Run
-from ballscrew.questions.run.response import Document
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.answer_parts import Closed
-from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, from_attributes, table_of, with_answers
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, from_attributes, table_of
 
 _OUTPUTS = quantities_of(FrictionResult)
 
@@ -116,19 +114,6 @@ def _output(one: OutputBand) -> BandedOutput:
 def _input(case: Case, name: str, one: Uncertain) -> UncertainInput:
     unit = uncertain_inputs.quantity_of(case, name).unit
     return UncertainInput(one.distribution.describe(unit), one.source, one.reason or None)
-
-
-class BandWords(Closed):
-    """Sentences beside the numbers of a band."""
-
-    sentences: list[str]
-    inputs: str
-
-
-class Band(Document, with_answers(band=BandResults)):
-    """The answer of a run with the band beside it."""
-
-    words: BandWords
 
 
 _TORQUE = "screw_torque"

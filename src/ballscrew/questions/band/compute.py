@@ -30,7 +30,7 @@ from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, cali
 from ballscrew.physics.friction.model import LAWS, coefficients
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import preload_of
-from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.band import BandOptions
 from ballscrew.questions.compare import compute
 from ballscrew.questions.shared.option_values import faults_named, flags_of
 from ballscrew.questions.warm_up.band import inputs_of

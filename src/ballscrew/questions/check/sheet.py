@@ -13,7 +13,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import FULL_BATH
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.check.compute import Checked, Rated
+from ballscrew.questions.check.answer import Checked, Rated
 from ballscrew.questions.run import sheet as run_sheet
 from ballscrew.questions.shared.check_lines import check_table, quantity_of
 

@@ -28,8 +28,8 @@ from ballscrew.basis.output.sheet import (
     warning_lines,
 )
 from ballscrew.basis.quantities import Duration, Info, Length, Quantity, Unit
-from ballscrew.questions.compensation.options import STEP, CompensationOptions
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.compensation import STEP, CompensationOptions
+from ballscrew.questions.shared.declared import envelope
 from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, check_hours
 from ballscrew.questions.warm_up.verdicts import verdicts, warnings
 

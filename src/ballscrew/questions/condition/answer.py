@@ -43,12 +43,17 @@ from ballscrew.evidence.service.condition_values import Condition, Part, State
 from ballscrew.files.torque_logs import reading, torque_series
 from ballscrew.files.torque_logs.torque_series import quantities
 from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.questions.condition.options import ConditionOptions
+from ballscrew.questions.condition import ConditionOptions
 from ballscrew.questions.service.compute import distributions
-from ballscrew.questions.shared.declared import FINITE, from_attributes, parts_like
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.declared import FINITE, envelope, from_attributes, parts_like
 from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag
 from ballscrew.questions.shared.options import options_of
+from ballscrew.questions.shared.question import (
+    Answer,
+    Done,
+    Request,
+    Work,
+)
 
 #: Flags of the command line by the fields in which a condition finds faults.
 _FLAGS: Mapping[str, str] = {
@@ -393,3 +398,27 @@ def _columns(condition: Condition) -> Columns:
             Column("limit", np.array(condition.chart.limit), _PLAIN),
         ],
     )
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    tests = request.files["tests"]
+    _check_files(request)
+    check_kind(len(tests), request.written)
+    options, case = request.options(ConditionOptions), request.load()
+
+    def answer(done: Done) -> Answer:
+        condition = of_files(case, tests, options, done)
+        return Answer(sheet(case, condition), lambda: document(case, condition), f"{len(condition.states)} tests")
+
+    return Work(answer, "condition")
+
+
+def _check_files(request: Request) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a question without case or tests."""
+    faults: list[Fault] = []
+    if request.case is None:
+        faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
+    if not request.files["tests"]:
+        faults.append(Fault("TABLE", "missing", "", "give a table with a row for each test, or the logs of the tests"))
+    raise_if_any(faults)

@@ -57,10 +57,11 @@ from ballscrew.questions.duty.parts import (
     PhaseNumbers,
     PositionSmoothing,
     Rules,
+    ShortReversal,
     SpeedSmoothing,
     WorstState,
+    short_reversal,
 )
-from ballscrew.questions.duty.short_reversal import ShortReversal, short_reversal
 from ballscrew.questions.shared.declared import LEFT_OUT, Answer, from_attributes, part, table_of
 
 DAY = 86400.0

@@ -44,9 +44,8 @@ from ballscrew.physics.friction.validity import FULL_BATH
 from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, DutyReport, cause_of, words_of
 from ballscrew.questions.duty.parts import PhaseNumbers
 from ballscrew.questions.duty.verdicts import verdicts, warnings
-from ballscrew.questions.shared.check_lines import check_table
+from ballscrew.questions.shared.check_lines import check_table, element_lines
 from ballscrew.questions.shared.declared import parts_of
-from ballscrew.questions.shared.elements_text import element_lines
 
 if TYPE_CHECKING:  # loads xarray
     from ballscrew.questions.duty.band import DutyBandReport

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +21,7 @@ from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.validity import CONDITIONS, NUT_CONDITIONS
 from ballscrew.physics.sizing.checks import Check, all_hold, verdict_of
 from ballscrew.questions.duty.compute import NUMBERS, OF_BATH, DutyReport
-from ballscrew.questions.duty.short_reversal import BACK, TRAVEL
+from ballscrew.questions.duty.parts import BACK, TRAVEL
 from ballscrew.questions.shared.check_lines import with_unlikely
 
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
@@ -72,9 +74,7 @@ def inertia(report: DutyReport) -> list[Record]:
         message = f"what turns has {whole} at the motor: {counted}"
         if missing := _not_given(report):
             message = f"{message}; not given: {missing}"
-    return [
-        Record("verdict.inertia", "inertia", message, severity="info", value=axis.turning_inertia, unit=_INERTIA.unit)
-    ]
+    return [Record("verdict.inertia", "inertia", message, value=axis.turning_inertia, unit=_INERTIA.unit)]
 
 
 def _part(report: DutyReport, name: str) -> str:
@@ -102,7 +102,7 @@ def _flank_changes(report: DutyReport) -> list[Record]:
     play = changes[0].lost_motion
     loses = f"the position loses the play of {units.shown(play, TRAVEL)}" if play else "nut.axial_play gives no play"
     message = f"the load changes its flank {len(changes)} times in a cycle, where {loses}: at {', '.join(places)}{more}"
-    return [Record("verdict.flank_changes", "lost_motion", message, value=play, limit=None, unit=TRAVEL.unit)]
+    return [Record("verdict.flank_changes", "lost_motion", message, value=play, unit=TRAVEL.unit)]
 
 
 def _brake(report: DutyReport) -> Record:
@@ -307,17 +307,8 @@ def _short_reversal(report: DutyReport) -> list[Record]:
         f"fro over it the screw loses {units.percent(short_reversal.work_share)} of the work counted, by a hypothesis "
         "(ballscrew reversal)"
     )
-    return [
-        Record(
-            "duty.short_reversal",
-            "stroke",
-            message,
-            severity="info",
-            value=short_reversal.stroke,
-            limit=short_reversal.back,
-            unit=TRAVEL.unit,
-        )
-    ]
+    ends = {"value": short_reversal.stroke, "limit": short_reversal.back}
+    return [Record("duty.short_reversal", "stroke", message, unit=TRAVEL.unit, **ends)]
 
 
 def _too_fast(report: DutyReport) -> list[Record]:
@@ -377,44 +368,36 @@ def _beyond_motor(report: DutyReport) -> list[Record]:
 
 def _validity(report: DutyReport) -> list[Record]:
     """Conditions of the model that fail while the axis moves, with the share of that time."""
-    states, known = report.duty.states, {**CONDITIONS, **NUT_CONDITIONS}
+    known = {**CONDITIONS, **NUT_CONDITIONS}
+    return [
+        _not_valid(name, known[name].subject, known[name].text, share)
+        for name, share in _failing(report, report.duty.screw.validity)
+        if name in known
+    ]
+
+
+def _failing(report: DutyReport, validity: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
+    """The conditions that fail while the axis moves, each with its share of that time."""
+    states = report.duty.states
     weight = np.where(states.direction != 0, states.weight, 0.0)
-    validity: list[Record] = []
-    for name, mask in report.duty.screw.validity.items():
-        share = float(np.sum(weight * ~mask)) / max(float(np.sum(weight)), 1e-300)
-        condition = known.get(name)
-        if not share or condition is None:
-            continue
-        validity.append(
-            Record.warning(
-                f"validity.{name}", condition.subject, _for_a_share(condition.text, share), value=share, limit=0.0
-            )
-        )
-    return validity
+    for name, mask in validity.items():
+        share = float(np.sum(weight * ~np.asarray(mask))) / max(float(np.sum(weight)), 1e-300)
+        if share:
+            yield name, share
 
 
-def _for_a_share(condition: str, share: float) -> str:
-    return f"{condition} (in {units.number(share, 2)} of the time in motion)"
+def _not_valid(name: str, subject: str, condition: str, share: float) -> Record:
+    message = f"{condition} (in {units.number(share, 2)} of the time in motion)"
+    return Record.warning(f"validity.{name}", subject, message, value=share, limit=0.0)
 
 
 def _validity_of_elements(report: DutyReport) -> list[Record]:
     """Conditions of bearings and guides that fail while the axis moves, with the share of that time."""
-    states = report.duty.states
-    weight = np.where(states.direction != 0, states.weight, 0.0)
     known = {name: condition.text for name, condition in {**CONDITIONS, **NUT_CONDITIONS}.items()}
     known[DIRECTION] = "one row carries no load in the other direction: it was computed for the size of the load"
-    validity: list[Record] = []
-    for element, masks in report.duty.support_validity.items():
-        for name, mask in masks.items():
-            share = float(np.sum(weight * ~np.asarray(mask))) / max(float(np.sum(weight)), 1e-300)
-            if share and name in known:
-                validity.append(
-                    Record.warning(
-                        f"validity.{name}",
-                        element.replace(" ", "_"),
-                        f"{element}: {_for_a_share(known[name], share)}",
-                        value=share,
-                        limit=0.0,
-                    )
-                )
-    return validity
+    return [
+        _not_valid(name, element.replace(" ", "_"), f"{element}: {known[name]}", share)
+        for element, validity in report.duty.support_validity.items()
+        for name, share in _failing(report, validity)
+        if name in known
+    ]

@@ -8,7 +8,6 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import Field
 
 from ballscrew.basis.quantities import Info, TemperatureDifference, Torque
 from ballscrew.basis.records import documents
@@ -24,8 +23,7 @@ from ballscrew.files.torque_logs.columns import COLUMNS
 from ballscrew.files.torque_logs.reading import Preview, SeenColumn
 from ballscrew.questions.fit.compute import Candidate, FitReport
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.answer_parts import Closed, FaultLine, Record, Shown, Tables, field
-from ballscrew.questions.shared.declared import Column, from_attributes, schema
+from ballscrew.questions.shared.declared import Column, from_attributes
 
 
 class FittedNumber(NamedTuple):
@@ -275,59 +273,3 @@ def columns_document(preview: Preview, candidates: Sequence[Candidate], *, movin
     )
     faults = [{**fault.document(), "column": fault.column} for fault in preview.faults]
     return {**declared.document(answer), "faults": faults}
-
-
-class ColumnFault(FaultLine):
-    """A fault of the columns of a log."""
-
-    column: str = Field(description="that it is about; may be empty")
-
-
-class Log(schema(LogColumns)):
-    """The columns of a log, and what may be fitted to it."""
-
-    faults: list[ColumnFault] = Field(description="for which the log cannot be read as it is")
-
-
-class ExampleLog(Closed):
-    """A log to try."""
-
-    name: str
-    text: str
-
-
-class Example(Closed):
-    """A case, and logs that belong to it."""
-
-    file: str
-    case: Tables
-    logs: list[ExampleLog]
-    free: list[str] = Field(description="numbers to fit to the logs")
-
-
-class Examples(Closed):
-    """Logs to try; no screw was measured for them."""
-
-    condition: Example
-    fit: Example
-    service: Example
-
-
-class Calibrated(Closed):
-    """The case with the fitted numbers and ``[calibration]``."""
-
-    toml: str
-    case: Tables
-
-
-class Fit(schema(FitResults), Shown):
-    """A case fitted to a log."""
-
-    units: Tables
-    verdicts: list[Record]
-    checks: list[Record]
-    warnings: list[Record] = Field(description="also what cannot be told apart")
-    inputs: Tables
-    provenance: Tables
-    assumed: list[str] = field(optional=True)
-    calibrated: Calibrated

@@ -1,15 +1,23 @@
-"""The fit of a case to a log of torques, and the test that would teach most."""
+"""The fit of a case to a log of torques, or of each screw of a table to its own, and the test that would teach most."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import InputError, spoken
+from ballscrew.axis.duty_cycle.duty import to_and_fro
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.friction_map import COLDEST, HOTTEST, FrictionMap
+from ballscrew.axis.thermal.network import network_of, steady
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, raise_if_any, spoken
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
@@ -23,10 +31,14 @@ from ballscrew.evidence.calibration.fit import fit as fitted
 from ballscrew.evidence.calibration.next_test import NextTest
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.response import resolve_input, uses_temperatures
+from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.questions.fit.options import DEFAULT_FREE, FitOptions
+from ballscrew.questions.fit import DEFAULT_FREE, FitOptions
+from ballscrew.questions.shared import every_row
+from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
 from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag
+from ballscrew.questions.warm_up.compute import assumed_of, bearings_of, check_oil, length_of, stroke_of
 
 #: Options of the command line by the fields in which the fit finds faults.
 _FLAGS: Mapping[str, str] = {"fit.limits.": "--limits ", **flags_of("fit", FitOptions)}
@@ -179,3 +191,110 @@ def free_quantities(case: Case, free: Sequence[str]) -> dict[str, Quantity]:
     full = {name: _full_name(subject, name) for name in free}
     known = {name: subject.inputs[each][1] for name, each in full.items() if each is not None}
     return known | ({CONSTANT_TORQUE.name: CONSTANT_TORQUE} if CONSTANT_TORQUE.name in free else {})
+
+
+OPTION = "--self-heating"
+#: Speeds between which the heat balance is interpolated.
+_SPEEDS = 12
+
+
+def warm_log(case: Case, log: TorqueLog, kind: Kind = "unknown") -> tuple[TorqueLog, Sequence[str]]:
+    """The log with steady temperatures of the oil, and what they assume.
+
+    The heat of a row is its measured torque times its speed, so that no model of friction is needed, and the balance is
+    linear in it. That holds for a torque of friction only: of a torque that drives, the share of friction is not known
+    before the fit. Raises :class:`~ballscrew.basis.errors.InputError` for such logs, for those that have temperatures,
+    for an oil without one, and where a row would be warmer than the oil is known.
+    """
+    check_oil(case)
+    if log.temperature is not None:
+        raise InputError(Fault(OPTION, "is given beside a log with temperatures", "", "leave it out"))
+    result = log.kind if kind == "unknown" else kind
+    if result != "friction":
+        problem = f"needs a log of friction torque: of a torque that is {_named(result)} the heat is not known yet"
+        remedy = "log the temperature of the nut, or give a log of friction torque with --kind friction"
+        raise InputError(Fault(OPTION, problem, "", remedy))
+    surroundings = case.surroundings or Surroundings()
+    point = dataclasses.replace(case, axis=None, motion=None)
+    stroke, length = stroke_of(point, surroundings), length_of(case, surroundings)
+    speed, power = np.abs(log.screw_speed), np.abs(log.torque * log.screw_speed)
+    fastest = float(np.max(speed))
+    speeds = np.unique(np.geomspace(max(float(np.min(speed)), 1e-3 * fastest), fastest, _SPEEDS))
+    load = float(np.median(np.abs(log.axial_load)))
+    nothing = FrictionMap(np.array([COLDEST, HOTTEST]), np.zeros(1), np.zeros((2, 1)))
+    networks = [
+        network_of(
+            to_and_fro(
+                case.model,
+                case.screw,
+                case.lubricant,
+                axial_load=load,
+                screw_speed=float(one),
+                stroke=stroke,
+                also=bearings_of(case),
+            ),
+            surroundings,
+            shaft_length=length,
+            friction=nothing,
+        )
+        for one in speeds
+    ]
+    idle: Numbers = np.array([one.of_oil @ steady(one, 0.0) for one in networks])
+    rise: Numbers = np.array([one.of_oil @ (steady(one, 1.0) - steady(one, 0.0)) for one in networks])
+    oil = np.interp(speed, speeds, idle) + np.interp(speed, speeds, rise) * power
+    if np.max(oil) > HOTTEST:
+        given = units.shown(float(np.max(oil)), TEMPERATURE)
+        remedy = "log the temperature, or give [surroundings] as they are: nut_conductance, ball_conductance"
+        raise InputError(Fault(OPTION, "makes a row warmer than the oil is known", given, remedy))
+    ends = " to ".join(units.shown(float(end), TEMPERATURE) for end in (np.min(oil), np.max(oil)))
+    assumed = [
+        f"oil at {ends}, in the steady state of the measured torque of each row; the preload stays as it was set",
+        *assumed_of(case, surroundings, networks[-1], stroke),
+    ]
+    return dataclasses.replace(log, temperature=oil), assumed
+
+
+def _named(kind: Kind) -> str:
+    return "not said to be one of friction" if kind == "unknown" else "that of the drive"
+
+
+#: What file names have not.
+_ODD = re.compile(r"[^\w.+-]+")
+
+
+def fits_of_rows(
+    rows: Mapping[str, RowCase],
+    logs: Mapping[str, TorqueLog],
+    options: Callable[[Case], FitOptions],
+    *,
+    keep_going: bool = False,
+    each: Callable[[RowCase, FitReport], None] | None = None,
+    done: Done | None = None,
+) -> OfRows[FitReport]:
+    """The fit of each row that has a log, by its place; ``each`` is told of every one as soon as it is done."""
+    work = {row.place: row for row in rows.values() if row.place in logs}
+
+    def fitted(row: RowCase) -> FitReport:
+        report = fit(row.case, logs[row.place], options(row.case))
+        if each is not None:
+            each(row, report)
+        return report
+
+    return every_row.each(work, fitted, keep_going=keep_going, done=done)
+
+
+def files_of_rows(rows: Mapping[str, RowCase], folder: Path) -> dict[str, Path]:
+    """The case file of each row in a folder, by the name of the row without what file names have not.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for two rows with the same file.
+    """
+    paths = {name: folder / f"{_ODD.sub('_', name).strip('._') or '_'}.toml" for name in rows}
+    taken: dict[str, str] = {}
+    faults: list[Fault] = []
+    for name, path in paths.items():
+        other = taken.setdefault(path.name.casefold(), name)
+        if other != name:
+            problem = "would have the same file as another row"
+            faults.append(Fault("--to", problem, f"{name} and {other}", "give the rows other names"))
+    raise_if_any(faults)
+    return paths

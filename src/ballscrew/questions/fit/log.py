@@ -5,20 +5,28 @@ Nothing here needs the solvers of the fit, which are slow to import: a log that 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.evidence.moving_logs.reading import is_moving, read_moving
 from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from ballscrew.questions.fit.options import FitOptions
-from ballscrew.questions.shared.option_values import read
+from ballscrew.questions.fit import FitMotionOptions, FitOptions
+from ballscrew.questions.shared import every_row
+from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
+from ballscrew.questions.shared.option_values import assignments, read
 
 #: The quantities that describe a test.
 CONDITIONS = ("axial_load", "screw_speed", "temperature")
+#: The options of a fit of a case; they depend on what the nut of the case has.
+OptionsOf = Callable[[Case], FitOptions]
 
 
 def read_options(case: Case, written: Mapping[str, Any]) -> FitOptions:
@@ -52,3 +60,56 @@ def steady_log(
         done=done,
     )
     return log.cleaned(inertia=options.inertia)
+
+
+def is_moving_log(path: Path, columns: Mapping[str, str] | Sequence[str]) -> bool:
+    """Test whether a file is a moving log; ``columns`` are headings by name, or ``name=heading`` of a command line."""
+    named = (text.partition("=") for text in assignments(columns))
+    return is_moving(path, {name.strip(): heading.strip() for name, _, heading in named if heading.strip()})
+
+
+def moving_log(case: Case, path: Path, options: FitMotionOptions, usual_gain: float | None = None) -> MovingLog:
+    """The log of a file; ``usual_gain`` (N/V) holds where neither the file nor the options give one.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a log that cannot be used.
+    """
+    return read_moving(
+        path,
+        options.columns,
+        lead=float(case.screw.lead),
+        torque_constant=options.torque_constant,
+        gain=options.gain,
+        usual_gain=usual_gain,
+        axis=options.axis,
+        period=options.period,
+        in_amperes=options.steady,
+        keep_going=options.keep_going,
+    )
+
+
+def logs_of_rows(
+    rows: Mapping[str, RowCase],
+    file: Path,
+    options: OptionsOf,
+    *,
+    keep_going: bool = False,
+    done: Done | None = None,
+) -> OfRows[TorqueLog]:
+    """The log of each row, by its place, read and cleaned before anything is fitted.
+
+    Rows without a log are left out, with a note. Raises :class:`~ballscrew.basis.errors.InputError` with the faults of
+    all logs; with ``keep_going`` only if none is good.
+    """
+    without = [row.row.name for row in rows.values() if row.log is None]
+    if len(without) == len(rows):
+        remedy = "give each screw the path of its log, beside the table"
+        raise InputError(Fault(file.name, 'has no column "log" with a file', "", remedy))
+
+    def read(named: tuple[Case, Path]) -> TorqueLog:
+        case, path = named
+        return steady_log(case, path, options(case))
+
+    named = {row.place: (row.case, row.log) for row in rows.values() if row.log is not None}
+    result = every_row.each(named, read, keep_going=keep_going, done=done)
+    notes = [f"{file.name}: no log of {', '.join(without)}"] if without else []
+    return dataclasses.replace(result, notes=[*notes, *result.notes])

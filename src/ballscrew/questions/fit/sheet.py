@@ -49,8 +49,8 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.fit.answer import results
 from ballscrew.questions.fit.compute import FitReport
 from ballscrew.questions.fit.log import CONDITIONS
+from ballscrew.questions.shared.charts import Numbers, some
 from ballscrew.questions.shared.declared import cells
-from ballscrew.questions.shared.log_points import Numbers, some
 
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
 _COUNT = Quantity("numbers", "1", Info("", "numbers"))

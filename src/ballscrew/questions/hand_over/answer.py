@@ -6,17 +6,14 @@ import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePath
-from typing import Any
-
-from pydantic import Field
+from typing import Any, NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.output.text import wrapped
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import TARGETS, Export, Option, WorstError, options_of
-from ballscrew.questions.shared.answer_parts import Closed, Tables
-from ballscrew.questions.shared.declared import from_attributes, parts_like, response
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.declared import envelope, from_attributes, parts_like
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -38,21 +35,35 @@ def document(export: Export, case: Case, written: Sequence[PurePath]) -> dict[st
     return {**whole, "provenance": dict(export.provenance)}
 
 
+class Choice(NamedTuple):
+    """A choice that a target has."""
+
+    name: str
+    default: str
+    meaning: str
+
+
+class Target(NamedTuple):
+    """A target of a hand-over."""
+
+    name: str
+    meaning: str
+    options: Sequence[Choice]
+
+
+class Targets(NamedTuple):
+    """The targets of a hand-over."""
+
+    targets: Sequence[Target]
+
+
 def targets() -> dict[str, Any]:
     """The targets, and the choices that each has."""
-    return {
-        "targets": [
-            {
-                "name": name,
-                "meaning": target.meaning,
-                "options": [
-                    {"name": choice, "default": _written(option), "meaning": option.meaning}
-                    for choice, option in options_of(name).items()
-                ],
-            }
-            for name, target in TARGETS.items()
-        ]
+    choices = {
+        name: [Choice(choice, _written(option), option.meaning) for choice, option in options_of(name).items()]
+        for name in TARGETS
     }
+    return declared.document(Targets([Target(name, TARGETS[name].meaning, each) for name, each in choices.items()]))
 
 
 def _written(option: Option) -> str:
@@ -63,54 +74,6 @@ def _written(option: Option) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return ""
     return str(value) if option.quantity is None else units.shown(value, option.quantity)
-
-
-class Choice(Closed):
-    """A choice that a target has."""
-
-    name: str
-    default: str
-    meaning: str
-
-
-class Target(Closed):
-    """A target of a hand-over."""
-
-    name: str
-    meaning: str
-    options: list[Choice]
-
-
-class Targets(Closed):
-    """The targets of a hand-over."""
-
-    targets: list[Target]
-
-
-class SentContent(Closed):
-    """A file of a hand-over, or a zip archive of several."""
-
-    name: str
-    media_type: str
-    base64: str
-
-
-class HandOverWords(Closed):
-    """What a hand-over says: ranges, worst errors, warnings."""
-
-    lines: list[str]
-    ranges: list[str] = Field(description="ranges and worst errors alone")
-
-
-class Beside(Closed):
-    """What stands beside the results of a hand-over."""
-
-    provenance: Tables
-    words: HandOverWords
-    file: SentContent
-
-
-HandOver: Any = response(HandOverResults, "HandOver", beside=Beside)
 
 
 def text(export: Export, written: Sequence[Path]) -> str:

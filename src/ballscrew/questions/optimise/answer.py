@@ -7,16 +7,18 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Record, documents
+from ballscrew.basis.records import documents
 from ballscrew.physics.sizing.checks import judged
-from ballscrew.questions.check import compute
-from ballscrew.questions.optimise.compute import Member, Optimisation
+from ballscrew.questions.check.answer import check_document, list_document
+from ballscrew.questions.optimise import OptimiseOptions
+from ballscrew.questions.optimise.compute import Member, Optimisation, optimise, plan, warnings
 from ballscrew.questions.optimise.design_model import VARIABLES, SearchOptions
-from ballscrew.questions.select.answer import OneObjective, need_document, objective
-from ballscrew.questions.select.candidates import Starved
+from ballscrew.questions.optimise.sheet import cost, sheet
+from ballscrew.questions.select.answer import OneObjective, need_document, objective, objectives, refuse_overwriting
 from ballscrew.questions.select.requirements import OBJECTIVES
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import FINITE, from_attributes, parts_like, table_of
+from ballscrew.questions.shared.question import Answer, Done, Request, Work
 
 #: What is the same for all members, or too long for a list.
 _LEFT_OUT = ("units", "provenance", "loads", "name", "nut", "results", "checks", "judged", "holds", "verdict")
@@ -58,7 +60,7 @@ class Front:
 def document(optimisation: Optimisation) -> dict[str, Any]:
     """The document in SI; ``results`` and ``checks`` of a member are those of ``ballscrew check --json``."""
     space = optimisation.space
-    first = compute.list_document([optimisation.members[0].checked])[0] if optimisation.members else {}
+    first = list_document([optimisation.members[0].checked])[0] if optimisation.members else {}
     units = {name: unit for name, unit in first.get("units", {}).items() if name != "loads"}
     search = from_attributes(
         Search,
@@ -86,19 +88,44 @@ def document(optimisation: Optimisation) -> dict[str, Any]:
     }
 
 
-def warnings(optimisation: Optimisation) -> list[Record]:
-    """That the first member which can be starved of oil is."""
-    records = (Starved.of(member.checked, None).records for member in optimisation.members)
-    return next(filter(None, records), [])
-
-
 def _member(member: Member) -> dict[str, Any]:
-    whole = compute.list_document([member.checked])[0]
+    whole = list_document([member.checked])[0]
     return {
         **declared.document(from_attributes(OneMember, member)),
         "results": whole["results"],
-        "checks": [compute.check_document(check) for check in member.checks],
+        "checks": [check_document(check) for check in member.checks],
         "judged": judged(member.checks),
         **{name: part for name, part in whole.items() if name not in _LEFT_OUT},
         "case": dict(member.case),
     }
+
+
+def _search(request: Request) -> dict[str, Any]:
+    """What both a search and its plan take; the seed is of the search alone."""
+    options = vars(request.options(OptimiseOptions))
+    return {**options, **vars(request.case_options), "objectives": objectives(options["objectives"])}
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    limits, need = _search(request), request.need
+    assert need is not None
+    refuse_overwriting(request)
+    seed = limits.pop("seed")
+    planned = plan(need, **limits)
+
+    def answer(done: Done) -> Answer:
+        front = optimise(need, seed=seed, done=done, **limits)
+        return Answer(sheet(front), lambda: document(front), f"{len(front.members)} designs")
+
+    return Work(answer, "designs", cost=cost(planned))
+
+
+def plan_document(request: Request) -> Any:
+    """The document of the plan."""
+    limits = _search(request)
+    limits.pop("seed")
+    assert request.need is not None
+    planned = plan(request.need, **limits)
+    designs = planned.rigid + planned.elastic
+    return {"designs": designs, "members": planned.members, "seconds": planned.seconds}

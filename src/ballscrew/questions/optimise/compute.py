@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
@@ -24,9 +25,10 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.ratings import PRELOADED
-from ballscrew.questions.check.compute import Checked, checked
+from ballscrew.questions.check.answer import Checked, checked
 from ballscrew.questions.optimise.design_model import VARIABLES, DesignModel, DesignSpace, design_space
-from ballscrew.questions.select import candidates, requirement_checks
+from ballscrew.questions.select import candidates, requirements
+from ballscrew.questions.select.candidates import Starved
 from ballscrew.questions.select.need import Need, need_of
 from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_LENGTH, front, shaft_length
 from ballscrew.questions.shared.every_row import copied
@@ -449,11 +451,11 @@ def _member(
     }
     checks = (
         *whole.checks,
-        *requirement_checks.by_loads(
+        *requirements.by_loads(
             need.requirements, case, numbers, preload=whole.nut.preload,
             largest_load=float(case.operation.axial_load), balls=whole.nut.loads,
         ),
-        *requirement_checks.of_friction(need.requirements, whole, None, numbers),
+        *requirements.of_friction(need.requirements, whole, None, numbers),
     )  # fmt: skip
     return Member(variables, searched, whole, checks, {name: numbers[name] for name in OBJECTIVES}, tables)
 
@@ -466,3 +468,9 @@ def _marked(members: Sequence[Member], objectives: Sequence[str]) -> list[Member
     best = {id(member) for member, is_best in zip(fitting, leads, strict=True) if is_best}
     ordered = sorted(members, key=lambda each: OBJECTIVES[objectives[0]].sign * each.objectives[objectives[0]])
     return [dataclasses.replace(each, pareto=id(each) in best) for each in ordered]
+
+
+def warnings(optimisation: Optimisation) -> list[Record]:
+    """That the first member which can be starved of oil is."""
+    records = (Starved.of(member.checked, None).records for member in optimisation.members)
+    return next(filter(None, records), [])

@@ -29,8 +29,7 @@ from ballscrew.basis.output.sheet import (
 from ballscrew.basis.output.text import wrapped
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.questions.check.sheet import cells
-from ballscrew.questions.optimise.answer import warnings
-from ballscrew.questions.optimise.compute import Member, Optimisation, Plan
+from ballscrew.questions.optimise.compute import Member, Optimisation, Plan, warnings
 from ballscrew.questions.optimise.design_model import OF_MODEL, VARIABLES
 from ballscrew.questions.select.requirements import OBJECTIVES
 from ballscrew.questions.select.sheet import LABELS, asked

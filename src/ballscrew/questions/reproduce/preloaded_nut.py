@@ -16,9 +16,9 @@ from ballscrew.cases.case_files import case_file, case_text
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import nut_text, operating_point
 from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.questions.band import BandOptions
 from ballscrew.questions.band.answer import verdicts
 from ballscrew.questions.band.compute import BandReport, band
-from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.band.sheet import input_counts
 from ballscrew.questions.run.compute import BesideRule, NutState, Run, beside_rules, contradiction, run
 from ballscrew.questions.shared.text_tables import ends_or_dashes, markdown_table, shown_or_dash

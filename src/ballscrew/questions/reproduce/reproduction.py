@@ -85,23 +85,16 @@ def reproduce_olaru2005(out: Path, report: Report | None = None) -> Reproduced:
         raise InputError(Fault("reproduce.data", "needs h5netcdf", "", 'pip install "ballscrew[data]"'))
     with _whole_folder(Path(out)) as folder:
         summary = _write(folder, report or _silent)
-    return Reproduced(sorted(Path(out) / name for name in folder.names), summary)
+        names = sorted(path.name for path in folder.iterdir())
+    return Reproduced([Path(out) / name for name in names], summary)
 
 
 def _silent(what: str, done: int, total: int) -> None:
     """Report to nobody."""
 
 
-class _Folder:
-    """A folder to write into, and what was in it in the end."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.names: list[str] = []
-
-
 @contextlib.contextmanager
-def _whole_folder(out: Path) -> Generator[_Folder]:
+def _whole_folder(out: Path) -> Generator[Path]:
     """A folder beside (or, where it exists, in) ``out`` whose files move to ``out`` once all went well."""
     # in the folder itself if it is there: it may be a file system of its own
     anchor = out
@@ -113,15 +106,14 @@ def _whole_folder(out: Path) -> Generator[_Folder]:
         temporary = Path(tempfile.mkdtemp(dir=anchor, prefix=f".{out.name}."))
     except OSError as error:
         raise write_error("reproduce.out", out, error) from None
-    folder = _Folder(temporary)
     try:
-        yield folder
-        folder.names = sorted(path.name for path in temporary.iterdir())
+        yield temporary
+        names = sorted(path.name for path in temporary.iterdir())
         out.mkdir(parents=True, exist_ok=True)
-        occupied = [name for name in folder.names if (out / name).is_dir()]
+        occupied = [name for name in names if (out / name).is_dir()]
         if occupied:
             raise IsADirectoryError(21, f"{occupied[0]} is a folder")
-        for name in folder.names:
+        for name in names:
             (temporary / name).replace(out / name)
     except OSError as error:
         raise write_error("reproduce.out", out, error) from None
@@ -129,7 +121,7 @@ def _whole_folder(out: Path) -> Generator[_Folder]:
         shutil.rmtree(temporary, ignore_errors=True)
 
 
-def _write(folder: _Folder, report: Report) -> list[str]:
+def _write(folder: Path, report: Report) -> list[str]:
     # matplotlib takes its time: only once the folder is known to be writable
     from ballscrew.questions.reproduce import ball_figure, figure
     from ballscrew.questions.shared import charts
@@ -143,7 +135,7 @@ def _write(folder: _Folder, report: Report) -> list[str]:
 
     data = olaru2005.curves()
     # in memory first: on a full disk HDF5 ends worse than in an OSError
-    (folder.path / "data.nc").write_bytes(data.to_netcdf(engine="h5netcdf"))
+    (folder / "data.nc").write_bytes(data.to_netcdf(engine="h5netcdf"))
     step("curves of the figures")
     result, checks = olaru2005.claims(), olaru2005.closure_checks()
     step("claims of the paper")
@@ -156,12 +148,12 @@ def _write(folder: _Folder, report: Report) -> list[str]:
         names = [plot.name for plot, _ in drawings]
         drawings.append((figure.PLOT, nut))
         for plot, source in drawings:
-            charts.save(plot.draw(source), folder.path, plot.name)
-            _write_text(folder.path / f"{plot.name}.csv", _csv(plot.table(source)))
+            charts.save(plot.draw(source), folder, plot.name)
+            _write_text(folder / f"{plot.name}.csv", _csv(plot.table(source)))
             step(plot.name)
-    _write_text(folder.path / preloaded_nut.CASE_FILE, preloaded_nut.CASE)
-    _write_text(folder.path / preloaded_nut.PAGE_FILE, preloaded_nut.page(nut))
-    _write_text(folder.path / "claims.md", claims_document(result, checks, names))
+    _write_text(folder / preloaded_nut.CASE_FILE, preloaded_nut.CASE)
+    _write_text(folder / preloaded_nut.PAGE_FILE, preloaded_nut.page(nut))
+    _write_text(folder / "claims.md", claims_document(result, checks, names))
     step("claims.md")
     return [f"The paper: {counts(result)}.", *preloaded_nut.lines(nut)]
 

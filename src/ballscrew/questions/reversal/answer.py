@@ -63,9 +63,9 @@ from ballscrew.physics.moving_balls.friction_states import (
     fit_slip_elements,
     of_elements,
 )
-from ballscrew.questions.reversal.options import ReversalOptions
-from ballscrew.questions.shared.declared import from_attributes
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.reversal import ReversalOptions
+from ballscrew.questions.shared.declared import envelope, from_attributes
+from ballscrew.questions.shared.question import Answer, Request, Work
 
 #: Shares of the swing whose places are told.
 SHARES = (0.5, 0.63, 0.9, 0.98)
@@ -209,9 +209,9 @@ class ReversalReport:
                 "have no memory of turning points: no elements have both the curve and the work of all strokes"
             )
             worst = max(fit.work_error for fit in self.slip_elements)
-            records.append(Record("reversal.work_of_elements", "slip_elements", text, severity="info", value=worst))
+            records.append(Record("reversal.work_of_elements", "slip_elements", text, value=worst))
         text = "the stiffness of the first hundredths of a degree is known to a factor of three"
-        records.append(Record("reversal.first_range", "spin_and_curvature", text, severity="info"))
+        records.append(Record("reversal.first_range", "spin_and_curvature", text))
         return [*records, *self.case.implausible()]
 
 
@@ -504,3 +504,14 @@ def _columns(report: ReversalReport) -> Columns:
             *parts,
         ],
     )
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options, case = request.options(ReversalOptions), request.load()
+
+    def answer(_: object) -> Answer:
+        report = reversal(case, options)
+        return Answer(sheet(report), lambda: document(report), f"{len(report.reversal.screw_angle)} angles")
+
+    return Work(answer, "reversal")

@@ -50,10 +50,10 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
-from ballscrew.questions.ripple.options import RippleOptions
-from ballscrew.questions.shared.declared import from_attributes, parts_like
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.ripple import RippleOptions
+from ballscrew.questions.shared.declared import envelope, from_attributes, parts_like
 from ballscrew.questions.shared.option_values import faults_named, flags_of
+from ballscrew.questions.shared.question import Answer, Done, Request, Work
 
 #: Faults that "all" stands for; a nut without preload has none to lose.
 ALL = ("missing-ball", "full", "spall=2 mm x 2 um", "preload=0.35", "groove=3")
@@ -435,3 +435,14 @@ def _curves(
     nut = [nut for nut, (x, _) in zip(nuts, curves, strict=True) for _ in x]
     x, y = (np.concatenate(values) for values in zip(*curves, strict=True))
     return Columns(name, [Column("nut", nut), Column(axes[0], x, axes[1]), Column(axes[2], y, axes[3])])
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options, case = request.options(RippleOptions), request.load()
+
+    def answer(done: Done) -> Answer:
+        report = ripple_of(case, options, done)
+        return Answer(sheet(report), lambda: document(report), f"{len(report.ripple.angle)} angles")
+
+    return Work(answer, "ripple")

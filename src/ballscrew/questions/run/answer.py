@@ -14,8 +14,7 @@ from ballscrew.physics.friction.result import FrictionResult, Quadrant
 from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.sizing.rules import DRAG_RULES, rule_of
 from ballscrew.questions.run.compute import OF_ONE_BALL, Run, nut_loads
-from ballscrew.questions.shared.declared import LEFT_OUT, OneOf, table_of
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.declared import LEFT_OUT, OneOf, envelope, table_of
 
 _OF_CONTACT = quantities_of(RaceState)
 #: The numbers and truth values of a result, without the inputs among them.

@@ -28,14 +28,13 @@ from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.installation import Installation
 from ballscrew.physics.sizing.ratings import NUTS, PRELOADED, lists_preload
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
-from ballscrew.questions.check.compute import Checked, checked, checks_by_loads
+from ballscrew.questions.check.answer import Checked, checked, checks_by_loads
 from ballscrew.questions.duty import compute, verdicts
 from ballscrew.questions.duty.compute import DutyReport
-from ballscrew.questions.select import requirement_checks
+from ballscrew.questions.select import requirements
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_LENGTH, Requirements, reflected_mass, shaft_length
-from ballscrew.questions.shared.every_row import copied
-from ballscrew.questions.shared.own_screws import tables_of_row
+from ballscrew.questions.shared.every_row import copied, tables_of_row
 
 #: Preloads where neither need nor row says one: the ends of what vendors give (Rexroth2006: 2 to 10 %), and between.
 USUAL_PRELOADS = ("2 %", "5 %", "10 %")
@@ -43,7 +42,7 @@ USUAL_PRELOADS = ("2 %", "5 %", "10 %")
 BY_LOADS = frozenset(
     {
         "static_safety", "life", "running_time", "shaft_stress", "buckling", "critical_speed", "diameter_speed_product",
-        "motor_speed", *requirement_checks.BY_LOADS,
+        "motor_speed", *requirements.BY_LOADS,
     }
 )  # fmt: skip
 #: Demand over capacity by the loads alone, above which a candidate cannot hold, and its friction is not asked for.
@@ -301,7 +300,7 @@ def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
         "life": time,
         "price_index": _price(need, variant),
     }
-    required = requirement_checks.by_loads(
+    required = requirements.by_loads(
         need.requirements,
         case,
         numbers,
@@ -333,7 +332,7 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
         case,
         (
             *own,
-            *requirement_checks.by_loads(
+            *requirements.by_loads(
                 need.requirements,
                 case,
                 numbers,
@@ -342,7 +341,7 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
                 balls=balls,
                 lacks_preload=lacks_preload(need, variant),
             ),
-            *requirement_checks.of_friction(need.requirements, result, report, numbers),
+            *requirements.of_friction(need.requirements, result, report, numbers),
         ),
         numbers,
         preload,

@@ -13,11 +13,13 @@ import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.quantities import Duration
+from ballscrew.basis.quantities import Duration, Info, Torque, quantities_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel
+from ballscrew.physics.sizing.checks import failing, verdict_of
 from ballscrew.physics.sizing.ratings import NUTS
+from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.duty import compute
 from ballscrew.questions.select.candidates import (
     LENGTH_OF_STROKE,
@@ -33,6 +35,7 @@ from ballscrew.questions.select.candidates import (
 )
 from ballscrew.questions.select.need import Need, need_of
 from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_OBJECTIVES, front, objectives_named
+from ballscrew.questions.shared.check_lines import with_unlikely
 from ballscrew.questions.shared.declared import FINITE
 from ballscrew.questions.shared.every_row import Done, each
 
@@ -333,3 +336,30 @@ def ranked(candidates: Sequence[Candidate], objectives: Sequence[str]) -> list[R
 def costs_of(candidate: Candidate, objectives: Sequence[str]) -> list[float]:
     """The objectives of a candidate, less being better; an infinite life is a number, too."""
     return [OBJECTIVES[name].sign * candidate.objectives[name] for name in objectives]
+
+
+_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
+
+
+def verdict(result: Candidate) -> str:
+    """All checks in a few words, with the utilisation of those that fail."""
+    if result.complete:
+        said = verdict_of(result.checks, passes="holds", by_how_much=True)
+    else:
+        names = ", ".join(failing(check) for check in result.failed)
+        said = f"cannot hold: {names}"
+    text = with_unlikely(said, result.case)
+    limit = result.rigid_lift_off_load
+    if limit is not None:
+        text += f"; preload lost (rigid bodies: above {units.shown(limit, _LIFT_OFF)})"
+    return text if result.valid else f"{text}; outside the model's validity"
+
+
+class BrakeOfNeed(NamedTuple):
+    """What the brake of an axis must hold."""
+
+    #: True where the axis starts to move by itself, or goes on once started.
+    falls: bool
+    holding_torque: Annotated[Torque, Info("M_h", "largest torque that keeps the axis at rest")]
+    load_torque: Annotated[Torque, Info("M_l", "torque of the load without any friction")]
+    brake_torque: Annotated[Torque, Info("M_b", "rated torque of a brake")]

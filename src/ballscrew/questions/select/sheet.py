@@ -25,14 +25,13 @@ from ballscrew.basis.output.sheet import (
     lines,
 )
 from ballscrew.basis.output.text import wrapped
-from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.questions.check.sheet import cells
 from ballscrew.questions.duty import verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 from ballscrew.questions.run import compute
-from ballscrew.questions.select.answer import BRAKE, verdict
 from ballscrew.questions.select.candidates import Candidate
-from ballscrew.questions.select.compute import Plan, Ranked, Selection
+from ballscrew.questions.select.compute import BrakeOfNeed, Plan, Ranked, Selection, verdict
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import ALLOWED, OBJECTIVES, Requirements
 from ballscrew.questions.shared import check_lines
@@ -292,7 +291,7 @@ def _cells(ranked: Ranked) -> Cells:
     if candidate.duty is not None:
         for name, torque in candidate.duty.motor_torque.items():
             values[f"motor {name}"] = (torque, NUMBERS[name])
-        for name in BRAKE:
+        for name in quantities_of(BrakeOfNeed):
             values[f"brake {name}"] = (getattr(candidate.duty.brake, name), NUMBERS["torque_peak"])
     for check in candidate.checks:
         values[f"{check.name.replace('_', ' ')} utilisation"] = (_finite(check.utilisation), None)

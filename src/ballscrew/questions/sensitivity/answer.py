@@ -38,9 +38,9 @@ from ballscrew.engine.uncertainty.sensitivity import ANOTHER_METHOD, HALF, MEASU
 from ballscrew.engine.uncertainty.sobol import Estimate
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.screw import MATERIALS
-from ballscrew.questions.sensitivity.options import SensitivityOptions
-from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, OneOf, from_attributes
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.sensitivity import SensitivityOptions
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, OneOf, envelope, from_attributes
+from ballscrew.questions.shared.question import Answer, Done, Request, Work
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -370,3 +370,14 @@ def _bars(report: SensitivityReport) -> Iterator[Bars]:
         known = [(f"+ {report.describe(known.inputs[-1])}", known.remaining) for known in result.explained_variance]
         left = [Bar(name, [("", share, "orange")]) for name, share in [("nothing known", 1.0), *known]]
         yield Bars("deviation left", _PLAIN, left, [Vertical("half", HALF, "ink")])
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options, case = request.options(SensitivityOptions), request.load()
+
+    def answer(done: Done) -> Answer:
+        report = sensitivity(case, options, done)
+        return Answer(sheet(case, report), lambda: document(case, report), f"{len(report.result.inputs)} inputs")
+
+    return Work(answer, "sensitivity")

@@ -5,21 +5,28 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
 from ballscrew.basis import units
-from ballscrew.basis.quantities import AngularSpeed, Force, Info, Quantity, Ratio, Temperature, Torque, Unit
-from ballscrew.basis.records import Record
+from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, Torque, Unit
 from ballscrew.cases.case_files.case import Case
-from ballscrew.engine.evaluation.outputs import inputs_of
-from ballscrew.evidence.service.alternatives import Alternative
+from ballscrew.engine.uncertainty.distributions import Normal
+from ballscrew.engine.uncertainty.uncertain_value import parse_uncertain
 from ballscrew.evidence.service.diagnostics import PreloadEstimate
-from ballscrew.evidence.service.posterior import PRELOAD
-from ballscrew.evidence.service.preload_change import VERDICTS, PreloadChange
-from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.questions.service.compute import TORQUE, ServiceReport
-from ballscrew.questions.shared.declared import LEFT_OUT, from_attributes
-from ballscrew.questions.shared.envelope import envelope
+from ballscrew.evidence.service.preload_change import PreloadChange
+from ballscrew.questions.service import ReadingOptions, ServiceOptions, compute
+from ballscrew.questions.service.compute import TORQUE, Reading, ServiceReport, verdicts
+from ballscrew.questions.service.sheet import sheet
+from ballscrew.questions.shared.declared import LEFT_OUT, envelope, from_attributes
+from ballscrew.questions.shared.option_values import read
+from ballscrew.questions.shared.question import (
+    Answer,
+    Done,
+    Request,
+    Work,
+)
 
 
 class EstimatedPreload(NamedTuple):
@@ -140,14 +147,6 @@ def _change(change: PreloadChange) -> dict[str, Any]:
     }
 
 
-#: By whether the value is within what is known of the number.
-_KNOWN = {
-    True: "within what is known of it",
-    False: "beyond what is known of it",
-    None: "nothing is known of it",
-}
-
-
 def document(case: Case, report: ServiceReport) -> dict[str, Any]:
     """Inputs, preloads, the share that is left, what else could be, warnings and provenance."""
     sources = [estimate.fit.rows.log.source for estimate in report.estimates.values() if estimate.fit is not None]
@@ -160,87 +159,68 @@ def document(case: Case, report: ServiceReport) -> dict[str, Any]:
     )
 
 
-def preload_quantity(case: Case) -> Quantity:
-    """The quantity of a preload, with its display unit."""
-    return inputs_of(case.model, case.screw, case.lubricant)[PRELOAD][1]
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    logs = request.files["logs"]
+    check_question(logs, request.case is not None, request.written)
+    case = request.load()
+    has_torque = request.written["torque"] is not None
+    torque = reading(request.written) if has_torque else None
+    options = ServiceOptions() if has_torque else request.options(ServiceOptions)
+
+    def answer(done: Done) -> Answer:
+        report = compute.of_logs(case, logs, options, done) if torque is None else compute.of_torque(case, torque)
+        return Answer(sheet(case, report), lambda: document(case, report), f"{len(report.estimates)} preloads")
+
+    return Work(answer, "service")
 
 
-def verdicts(case: Case, report: ServiceReport) -> list[Record]:
-    """What became of the preload, and each cause that would explain the log as well."""
-    if report.change is None:
-        return [_of_reading(case, report)]
-    change = report.change
-    if not change.logarithm.told:
-        text = "the preload cannot be told from this: see the warnings"
-        return [Record("service.preload_left", PRELOAD, text, severity="warning")]
-    low, high = (units.percent(end) for end in change.ratio_interval())
-    limit = 1 - change.tolerance
-    preload = "nominal preload" if change.new.fit is None else "preload"
-    text = (
-        f"{VERDICTS[change.verdict]}: {units.percent(change.ratio)} of the {preload} is left ({low} to {high}), less "
-        f"than {units.percent(limit)} of it with a probability of {probability(change.probability_of_loss)}"
-    )
-    holds = {"lost": False, "kept": True, "open": None}[change.verdict]
-    severity = "warning" if change.verdict == "lost" else "info"
-    records = [
-        Record("service.preload_left", PRELOAD, text, severity=severity, holds=holds, value=change.ratio, limit=limit)
-    ]
-    return [*records, *(_of_alternative(one) for one in change.alternatives)]
+def check_question(logs: Sequence[Path], has_case: bool, written: Mapping[str, Any]) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a question that is none, or two."""
+    faults: list[Fault] = []
+    if not has_case:
+        faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
+    if written["torque"] is None:
+        if not logs:
+            remedy = 'give NEW.csv WORN.csv, or WORN.csv alone, or --torque "0.4 N m" --speed "100 rpm"'
+            faults.append(Fault("WORN", "missing", "", remedy))
+        faults += [
+            Fault(f"--{name}", "is for a torque without a log", written[name], "leave it out, or give --torque")
+            for name in ("speed", "temperature")
+            if written[name] is not None
+        ]
+    else:
+        if logs:
+            faults.append(Fault("--torque", "is given beside a log", written["torque"], "leave one of them out"))
+        if written["speed"] is None:
+            faults.append(Fault("--speed", "missing", "", 'say at which speed: --speed "100 rpm"'))
+    if len(logs) > 2:
+        faults.append(Fault("WORN", "more than two logs", str(len(logs)), "give the new one and the worn one"))
+    raise_if_any(faults)
 
 
-def probability(share: float) -> str:
-    """``12%``; of what is nearly certain or nearly impossible only that."""
-    if share > 0.999:
-        return "more than 99.9%"
-    if share < 0.001:
-        return "less than 0.1%"
-    return units.percent(share, 1 if share > 0.99 or share < 0.01 else 0)
-
-
-def _of_alternative(one: Alternative) -> Record:
-    value, instead = (units.shown(number, one.quantity, 3) for number in (one.value, one.instead_of))
-    off, off_of_preload = (units.shown(torque, TORQUE, 3) for torque in (one.rms, one.rms_of_preload))
-    explains = "explains it as well" if one.explains else "does not explain it"
-    text = (
-        f"{one.name.rpartition('.')[2].replace('_', ' ')} {value} instead of {instead} {explains} (off by {off}, with "
-        f"another preload {off_of_preload})"
-    )
-    if one.explains:
-        text += f"; {_KNOWN[one.plausible]}"
-    return Record(
-        "service.alternative",
-        one.name,
-        text,
-        value=one.value,
-        limit=one.instead_of,
-        unit=one.quantity.unit,
-        holds=one.explains,
-    )
-
-
-def _of_reading(case: Case, report: ServiceReport) -> Record:
-    assert report.preload is not None
-    quantity = preload_quantity(case)
-    pair = (report.preload.preload, *report.preload.interval())
-    preload, low, high = (units.shown(force, quantity) for force in pair)
-    text = f"preload {preload} ({low} to {high})"
-    nominal = getattr(case.screw.nut, "preload", None)
-    if nominal:
-        share, least, most = (units.percent(force / nominal) for force in pair)
-        text += f", {share} of the {units.shown(float(nominal), quantity)} of the case ({least} to {most})"
-    text += _taken_at(case, report)
-    return Record("service.preload", PRELOAD, text, value=report.preload.preload, unit="N")
-
-
-def _taken_at(case: Case, report: ServiceReport) -> str:
-    """The speed and the temperature that a reading is taken at, and whose they are."""
-    if report.reading is None:
-        return ""
-    of_speed = inputs_of(case.model, case.screw, case.lubricant)["screw_speed"][1]
-    taken = f"; taken at {units.shown(report.reading.screw_speed, of_speed)}"
-    given = report.reading.temperature
-    warm = case.lubricant.temperature if given is None else given
-    if warm is None:
-        return taken
-    temperature = units.shown(float(warm), TEMPERATURE, 3)
-    return f"{taken} and {temperature}" if given is not None else f"{taken} and {temperature}, the oil of the case"
+def reading(written: Mapping[str, Any]) -> Reading:
+    """A torque without load. Raises :class:`~ballscrew.basis.errors.InputError` for faults in it."""
+    options = read(ReadingOptions, written)
+    assert options.torque is not None
+    assert options.speed is not None
+    faults: list[Fault] = []
+    value = deviation = 0.0
+    uncertain = parse_uncertain(options.torque, TORQUE)
+    if isinstance(uncertain, Fault):
+        faults.append(Fault("--torque", uncertain.problem, uncertain.given or options.torque, uncertain.remedy))
+    elif uncertain is None:
+        result = units.parse("--torque", options.torque, TORQUE)
+        if isinstance(result, Fault):
+            faults.append(result)
+        else:
+            value = result
+    else:
+        value = uncertain.central
+        if isinstance(uncertain.distribution, Normal):
+            deviation = uncertain.distribution.deviation
+        elif uncertain.distribution is not None:
+            remedy = '"0.40 ± 0.02 N m"'
+            faults.append(Fault("--torque", "must be a value ± its 95 % interval", options.torque, remedy))
+    raise_if_any(faults)
+    return Reading(value, options.speed, deviation, options.temperature)

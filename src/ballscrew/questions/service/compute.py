@@ -9,25 +9,31 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.basis import units
+from ballscrew.basis.quantities import (
+    Quantity,
+    quantities_of,
+)
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
+from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.engine.uncertainty.uncertain_value import default_distributions
 from ballscrew.evidence.calibration.fit import points_of
 from ballscrew.evidence.calibration.fit_result import Rows
 from ballscrew.evidence.calibration.response import torque_of_model
+from ballscrew.evidence.service.alternatives import Alternative
 from ballscrew.evidence.service.diagnostics import PreloadEstimate
 from ballscrew.evidence.service.posterior import PRELOAD
-from ballscrew.evidence.service.preload_change import PreloadChange, preload_change, preload_of_torque
+from ballscrew.evidence.service.preload_change import VERDICTS, PreloadChange, preload_change, preload_of_torque
 from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
-from ballscrew.questions.shared.log_points import Numbers, some
+from ballscrew.questions.service import ReadingOptions, ServiceOptions
+from ballscrew.questions.shared.charts import Numbers, some
 from ballscrew.questions.shared.option_values import faults_named, flags_of
 
 TORQUE: Quantity = quantities_of(FrictionResult)["screw_torque"]
@@ -205,3 +211,97 @@ def _friction(one: PreloadEstimate, points: Mapping[str, Any]) -> Numbers:
         there.pop("temperature", None)
     size = np.broadcast_arrays(*there.values())
     return torque_of_model(one.subject, dict(zip(there, size, strict=True)), np.array([[0.0], [1.0]]), one.warmer)
+
+
+#: By whether the value is within what is known of the number.
+_KNOWN = {
+    True: "within what is known of it",
+    False: "beyond what is known of it",
+    None: "nothing is known of it",
+}
+
+
+def preload_quantity(case: Case) -> Quantity:
+    """The quantity of a preload, with its display unit."""
+    return inputs_of(case.model, case.screw, case.lubricant)[PRELOAD][1]
+
+
+def verdicts(case: Case, report: ServiceReport) -> list[Record]:
+    """What became of the preload, and each cause that would explain the log as well."""
+    if report.change is None:
+        return [_of_reading(case, report)]
+    change = report.change
+    if not change.logarithm.told:
+        text = "the preload cannot be told from this: see the warnings"
+        return [Record("service.preload_left", PRELOAD, text, severity="warning")]
+    low, high = (units.percent(end) for end in change.ratio_interval())
+    limit = 1 - change.tolerance
+    preload = "nominal preload" if change.new.fit is None else "preload"
+    text = (
+        f"{VERDICTS[change.verdict]}: {units.percent(change.ratio)} of the {preload} is left ({low} to {high}), less "
+        f"than {units.percent(limit)} of it with a probability of {probability(change.probability_of_loss)}"
+    )
+    holds = {"lost": False, "kept": True, "open": None}[change.verdict]
+    severity = "warning" if change.verdict == "lost" else "info"
+    records = [
+        Record("service.preload_left", PRELOAD, text, severity=severity, holds=holds, value=change.ratio, limit=limit)
+    ]
+    return [*records, *(_of_alternative(one) for one in change.alternatives)]
+
+
+def probability(share: float) -> str:
+    """``12%``; of what is nearly certain or nearly impossible only that."""
+    if share > 0.999:
+        return "more than 99.9%"
+    if share < 0.001:
+        return "less than 0.1%"
+    return units.percent(share, 1 if share > 0.99 or share < 0.01 else 0)
+
+
+def _of_alternative(one: Alternative) -> Record:
+    value, instead = (units.shown(number, one.quantity, 3) for number in (one.value, one.instead_of))
+    off, off_of_preload = (units.shown(torque, TORQUE, 3) for torque in (one.rms, one.rms_of_preload))
+    explains = "explains it as well" if one.explains else "does not explain it"
+    text = (
+        f"{one.name.rpartition('.')[2].replace('_', ' ')} {value} instead of {instead} {explains} (off by {off}, with "
+        f"another preload {off_of_preload})"
+    )
+    if one.explains:
+        text += f"; {_KNOWN[one.plausible]}"
+    return Record(
+        "service.alternative",
+        one.name,
+        text,
+        value=one.value,
+        limit=one.instead_of,
+        unit=one.quantity.unit,
+        holds=one.explains,
+    )
+
+
+def _of_reading(case: Case, report: ServiceReport) -> Record:
+    assert report.preload is not None
+    quantity = preload_quantity(case)
+    pair = (report.preload.preload, *report.preload.interval())
+    preload, low, high = (units.shown(force, quantity) for force in pair)
+    text = f"preload {preload} ({low} to {high})"
+    nominal = getattr(case.screw.nut, "preload", None)
+    if nominal:
+        share, least, most = (units.percent(force / nominal) for force in pair)
+        text += f", {share} of the {units.shown(float(nominal), quantity)} of the case ({least} to {most})"
+    text += _taken_at(case, report)
+    return Record("service.preload", PRELOAD, text, value=report.preload.preload, unit="N")
+
+
+def _taken_at(case: Case, report: ServiceReport) -> str:
+    """The speed and the temperature that a reading is taken at, and whose they are."""
+    if report.reading is None:
+        return ""
+    of_speed = inputs_of(case.model, case.screw, case.lubricant)["screw_speed"][1]
+    taken = f"; taken at {units.shown(report.reading.screw_speed, of_speed)}"
+    given = report.reading.temperature
+    warm = case.lubricant.temperature if given is None else given
+    if warm is None:
+        return taken
+    temperature = units.shown(float(warm), TEMPERATURE, 3)
+    return f"{taken} and {temperature}" if given is not None else f"{taken} and {temperature}, the oil of the case"

@@ -35,8 +35,7 @@ from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
 from ballscrew.evidence.service.diagnostics import PreloadEstimate
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.questions.service.answer import preload_quantity, verdicts
-from ballscrew.questions.service.compute import TORQUE, ServiceReport, curves
+from ballscrew.questions.service.compute import TORQUE, ServiceReport, curves, preload_quantity, verdicts
 
 #: Causes of an interval that are no input of the model.
 #: Causes of an interval that are named.

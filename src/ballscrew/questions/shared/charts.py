@@ -16,14 +16,18 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.output.sheet import Colour
 from ballscrew.basis.output.text import escaped
 
-if TYPE_CHECKING:  # matplotlib is slow to import: only where a picture is drawn
+if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
 
 #: Colours of Okabe and Ito, told apart with any colour vision.
 BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW = (
@@ -248,3 +252,11 @@ def _box(text: str) -> str:
 def named(text: str, words: str) -> str:
     """An SVG with its name in words, for those who cannot see it."""
     return re.sub(r"<svg([^>]*)>", lambda m: f'<svg{m[1]} role="img">\n<title>{escaped(words)}</title>', text, count=1)
+
+
+Numbers = NDArray[np.float64]
+
+
+def some(places: NDArray[np.int64], most: int) -> NDArray[np.int64]:
+    """At most so many of some rows, the same each time."""
+    return places if places.size <= most else np.random.default_rng(0).choice(places, most, replace=False)

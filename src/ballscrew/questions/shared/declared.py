@@ -14,8 +14,8 @@ from __future__ import annotations
 import dataclasses
 import functools
 import types
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from typing import Annotated, Any, Literal, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from typing import Annotated, Any, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -23,6 +23,9 @@ from ballscrew.basis.arrays import lazy
 from ballscrew.basis.field_docs import comments_of
 from ballscrew.basis.output.sheet import Cells
 from ballscrew.basis.quantities import Info, Quantity, Unit, info_of, unit_of
+from ballscrew.basis.records import Record, documents
+from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.case_files.case import Case
 
 T = TypeVar("T")
 
@@ -123,20 +126,21 @@ def _unwrapped(annotation: Any) -> Any:
 
 def _bare(annotation: Any) -> Any:
     inner = _unwrapped(annotation)
-    if _is_union(inner):
+    if is_union(inner):
         several = [each for each in get_args(inner) if each is not type(None)]
         return _bare(several[0]) if len(several) == 1 else Union[tuple(several)]  # noqa: UP007  (made at run time)
     return inner
 
 
-def _origin(annotation: Any) -> Any:
+def origin_of(annotation: Any) -> Any:
     """The class behind an annotation, without its arguments; ``NDArray`` of NumPy 2.5 is a name of one."""
     kind = get_origin(annotation) or annotation
     meant = getattr(kind, "__value__", None)  # of ``type`` statements, which Python has from 3.12 on
     return kind if meant is None else get_origin(meant) or meant
 
 
-def _is_union(annotation: Any) -> bool:
+def is_union(annotation: Any) -> bool:
+    """True for an annotation with several types."""
     return isinstance(annotation, types.UnionType) or get_origin(annotation) is Union
 
 
@@ -281,7 +285,7 @@ def _units(part: Part, value: Any) -> Any:
         return part.unit
     if _is_answer(type(value)):
         return units(value)
-    kind, inner = _origin(part.bare), get_args(part.bare)
+    kind, inner = origin_of(part.bare), get_args(part.bare)
     if is_answer(kind):
         return units_of(kind)
     if kind is Mapping:
@@ -298,89 +302,43 @@ def units_of(cls: type) -> dict[str, Any]:
     return {name: unit for name, unit in values.items() if unit}
 
 
-# -- schema ---------------------------------------------------------------------------------------
+# -- the document of an answer about a case -------------------------------------------------------
 
 
-def schema(cls: type, *, optional: bool = False) -> Any:
-    """The response model of an answer: a name, a type and a description for each part.
+def envelope(
+    case: Case,
+    results: Any,
+    *,
+    named: str = "results",
+    units: Mapping[str, str] | None = None,
+    beside: Mapping[str, Any] | None = None,
+    assumed: Iterable[str] | None = None,
+    warnings: Iterable[Record] = (),
+    verdicts: Iterable[Record] = (),
+    checks: Iterable[Mapping[str, Any]] = (),
+    sources: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """The document of an answer, in SI.
 
-    ``optional`` where each part of it may be left out.
+    ``units`` are those of numbers by other names than its own, ``beside`` are more answers by name, ``sources`` what
+    else it rests on.
     """
-    return _schema(cls, optional)
-
-
-@functools.cache
-def _schema(cls: type, optional: bool) -> Any:
-    from ballscrew.questions.shared.answer_parts import Closed, model  # pydantic, which the command line does not need
-
-    fields = {name: _field(part, optional=optional) for name, part in described(cls).items()}
-    return model(cls.__name__, _first_line(cls), Closed, **fields)
-
-
-def with_answers(**parts: Any) -> Any:
-    """A base of response models with answers as parts: a class, or a sequence of a class, for each name.
-
-    A pair is the class with its field.
-    """
-    from ballscrew.questions.shared.answer_parts import with_fields
-
-    pairs = {name: part if isinstance(part, tuple) else (part, ...) for name, part in parts.items()}
-    return with_fields(**{name: (_kind(Part(name, cls)), field) for name, (cls, field) in pairs.items()})
-
-
-def response(cls: type, name: str, *, named: str = "results", judged: bool = False, beside: type | None = None) -> Any:
-    """The response model of a document whose results are an answer, ``named`` so.
-
-    ``judged`` where its checks are of a screw; ``beside`` is a model of what it has besides, or in another form.
-    """
-    from ballscrew.questions.shared import answer_parts
-
-    base: Any = answer_parts.Shown if beside is None else beside
-    fields = {
-        "inputs": answer_parts.Tables,
-        named: schema(cls),
-        "units": answer_parts.Tables,
-        "verdicts": list[answer_parts.Record],
-        "checks": list[answer_parts.JudgedCheck if judged else answer_parts.Record],
-        "warnings": list[answer_parts.Record],
-        "provenance": answer_parts.Provenance,
+    return {
+        "inputs": descriptions.inputs(case),
+        **numbers(**{named: results}, **(beside or {})),
+        **({} if units is None else {"units": dict(units)}),
+        **({} if assumed is None else {"assumed": list(assumed)}),
+        "warnings": documents(warnings),
+        "verdicts": documents(verdicts),
+        "checks": list(checks),
+        "provenance": {**descriptions.of_case(case), **(sources or {})},
     }
-    own = {name: (kind, ...) for name, kind in fields.items() if name not in base.model_fields}
-    return answer_parts.model(name, _first_line(cls), base, **own)
 
 
-def _first_line(cls: type) -> str:
-    return (cls.__doc__ or "").partition("\n")[0]
-
-
-def _field(part: Part, *, optional: bool = False) -> tuple[Any, Any]:
-    from ballscrew.questions.shared.answer_parts import field
-
-    # what may be left out has a default, which the description does not show
-    unit = part.unit or _unit_within(part.bare) or "1"
-    says_unit = unit == "1" or not part.meaning or f", {unit}" in part.meaning
-    words = part.meaning if says_unit else f"{part.meaning}, SI"
-    kind = _kind(part)
-    return (kind | None if part.may_be_none else kind, field(words, unit, optional=optional or part.left_out))
-
-
-def _unit_within(annotation: Any) -> str | None:
-    """The unit of the numbers in a sequence or a mapping; None of others."""
-    return next((unit for each in get_args(annotation) if (unit := unit_of(each) or _unit_within(each))), None)
-
-
-def _kind(part: Part) -> Any:
-    kind, inner = _origin(part.bare), get_args(part.bare)
-    if part.words_allowed:
-        return Literal[part.words_allowed]
-    if kind is Mapping:
-        return dict[str, _kind(Part("", inner[1]))]
-    if kind is np.ndarray:
-        return list[part.number]
-    if kind is Sequence:
-        return list[part.number if unit_of(inner[0]) or inner[0] is float else _kind(Part("", inner[0]))]
-    if _is_union(part.bare):
-        return Union[tuple(_kind(Part("", each)) for each in inner)]  # noqa: UP007  (made at run time)
-    if is_answer(kind):
-        return schema(kind)
-    return part.number if part.unit is not None or kind is float else part.bare  # or a truth value, or texts
+def numbers(**answers: Any) -> dict[str, Any]:
+    """Answers by name, and the units of all: those of the results are not under their name."""
+    by_name = {name: units(answer) for name, answer in answers.items()}
+    return {
+        **{name: document(answer) for name, answer in answers.items()},
+        "units": by_name.pop("results", {}) | by_name,
+    }

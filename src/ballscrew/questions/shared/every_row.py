@@ -1,4 +1,4 @@
-"""All rows of a table, one after the other: what is computed of each, and which of them are left out, and why."""
+"""All rows of a table, one after the other: what is computed of each, and which are left out, and why."""
 
 from __future__ import annotations
 
@@ -6,17 +6,20 @@ import csv
 import dataclasses
 import importlib.util
 import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
+from ballscrew.cases.screw_tables.nut_kinds import LISTED
+from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.questions.shared.own_screws import tables_of_row
+from ballscrew.physics.sizing.ratings import NUTS, lists_preload
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -126,16 +129,10 @@ def each(
     return OfRows(results, notes, interrupted)
 
 
-_DIGITS = 12
 #: Endings of files that are written.
 KINDS = (".csv", ".xlsx")
-
-
-class RowTable(NamedTuple):
-    """Headings, and the cells of each row below them."""
-
-    headings: Sequence[str]
-    rows: Sequence[Sequence[Any]]
+#: The rows of a table, the first of which has its headings.
+Rows: TypeAlias = Iterable[Sequence[Any]]
 
 
 # -- files ----------------------------------------------------------------------------------------
@@ -150,24 +147,68 @@ def check_path(to: Path) -> None:
     check_writable("--to", to)
 
 
-def write_csv(path: Path, table: RowTable) -> None:
-    """The rows of a table as CSV, below its headings."""
+def write_csv(path: Path, rows: Rows) -> None:
+    """The rows of a table as CSV."""
     with path.open("w", encoding="utf-8", newline="") as stream:
-        csv.writer(stream, lineterminator="\n").writerows([table.headings, *table.rows])
+        csv.writer(stream, lineterminator="\n").writerows(rows)
 
 
-def xlsx_bytes(tables: Mapping[str, RowTable]) -> bytes:
-    """A workbook with a sheet for each table, by title."""
+def xlsx_bytes(tables: Mapping[str, Rows], without_names: Container[str] = ()) -> bytes:
+    """A workbook with a sheet for each table, by title; the first column stays in sight, where it has names."""
     import xlsxwriter
 
     buffer = io.BytesIO()
-    workbook = xlsxwriter.Workbook(buffer, {"in_memory": True})
+    workbook = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": True})
     bold = workbook.add_format({"bold": True})
-    for title, table in tables.items():
+    for title, rows in tables.items():
         sheet = workbook.add_worksheet(title)
-        sheet.freeze_panes(1, 1)
-        for number, row in enumerate([table.headings, *table.rows]):
+        sheet.freeze_panes(1, 0 if title in without_names else 1)
+        for number, row in enumerate(rows):
             sheet.write_row(number, 0, row, bold if number == 0 else None)
         sheet.autofit()
     workbook.close()
     return buffer.getvalue()
+
+
+#: What a row says of the screw; the rest, as roughness and materials, is that of the case.
+_OF_ROW = frozenset(
+    {
+        "catalogue", "catalogue_file", "pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls",
+        "contact_angle", "screw_conformity", "nut_conformity", "starts", *LISTED,
+    }
+)  # fmt: skip
+#: What braces a nut: given by a row, or by the case.
+_BRACING = ("preload", "oversize")
+
+
+def tables_of_row(tables: Mapping[str, Any], row: CatalogueRow, file: Path | None) -> dict[str, Any]:
+    """The tables of a case with the screw of a row of a file, or of one shipped, in place of its own.
+
+    The geometry is that of the row, and so are the nut, its preload, its seals and its outer diameter where the row
+    lists them; what it does not list is that of the case. Sizes of bodies of the case belong to its own screw.
+    """
+    made = dict(tables)
+    screw = made.get("screw", {})
+    if isinstance(screw, Mapping):
+        kept = {name: value for name, value in screw.items() if name not in _OF_ROW}
+        of_file = {} if file is None else {"catalogue_file": str(file.resolve())}
+        made["screw"] = {"catalogue": row.name, **of_file, **kept}
+    if isinstance(nut := made.get("nut"), Mapping):
+        made["nut"] = _nut(nut, row)
+    if isinstance(bodies := made.get("bodies"), Mapping):
+        made["bodies"] = {name: value for name, value in bodies.items() if name not in fields_of(Bodies)}
+    if isinstance(losses := made.get("losses"), Mapping) and row.seal_torque is not None:
+        made["losses"] = {name: value for name, value in losses.items() if name != "seals"}
+    return made
+
+
+def _nut(nut: Mapping[str, Any], row: CatalogueRow) -> dict[str, Any]:
+    """The section of the nut without what the row lists, and what its kind of nut does not have."""
+    nut = {name: value for name, value in nut.items() if name != "spacer_balls" or row.spacer_balls is None}
+    if not row.nut:
+        return nut
+    known = fields_of(NUTS[row.nut])
+    listed = _BRACING if lists_preload(row) else ()
+    # a name that no nut has stays: it is a fault of the case
+    of_others = {name for kind in NUTS.values() for name in fields_of(kind)} - set(known)
+    return {name: value for name, value in nut.items() if name not in {"type", *listed, *of_others}}

@@ -63,6 +63,11 @@ def with_flag(fault: Fault, flags: Mapping[str, str]) -> Fault:
     return dataclasses.replace(fault, where=flags[known] + where.removeprefix(known)) if known else fault
 
 
+def without_band(given: Mapping[str, Any]) -> list[Fault]:
+    """The faults of options of a band, by their flags, where none is asked for."""
+    return [Fault(flag, "needs --band", str(value), "add --band") for flag, value in given.items() if value is not None]
+
+
 def assignments(given: Mapping[str, str] | Sequence[str]) -> list[str]:
     """``name=text`` of each entry of a table, as on the command line."""
     return [f"{name}={text}" for name, text in given.items()] if isinstance(given, Mapping) else list(given)

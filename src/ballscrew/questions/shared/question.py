@@ -1,15 +1,16 @@
-"""A question as a record: its name, what it reads, its options, and the function that answers it.
+"""A question as a record: its name, what it reads, its options, and the module that answers it.
 
 Faces list these records and make what they need of them: the command line a command, the server an address. The records
-load nothing that is slow: the function of a question imports its computation when it is called.
+load nothing that is slow: they name the module of the answer, which is loaded when it is asked for.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import importlib
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol, TypeVar, cast
 
 from ballscrew.questions.shared.options import Option
 
@@ -192,35 +193,41 @@ class Work(NamedTuple):
     cost: str = ""
 
 
-class Plan(NamedTuple):
-    """What a question would do, as an address tells it before it is asked."""
+class AnswerModule(Protocol):
+    """The functions of a module that answers a question."""
 
-    document: Callable[[Request], Any]
-    #: The model of it.
-    response: Callable[[], Any]
-    #: The docstring of its address.
-    help: str
+    def prepare(self, request: Request) -> Work:
+        """The work for an answer; a request is read and checked at once.
+
+        Raises :class:`~ballscrew.basis.errors.InputError` for faults in it.
+        """
+        ...
+
+    def plan_document(self, request: Request) -> Any:
+        """The document of the plan, of a question whose address tells one."""
+        ...
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Endpoint:
     """The address of a question in the API, as far as it does not follow from its command."""
 
-    #: The model of its answer: the document with the sheet beside it.
-    response: Callable[[], Any]
     #: Classes of options, where it has not all of the command.
     options: Sequence[type] | None = None
     #: Files that come with the case.
     files: Sequence[Sent] = ()
     #: Options that are not sent, where they are not as those of a command without flags.
     written: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    plan: Plan | None = None
+    #: The docstring of the address that tells what the question would do before it is asked; empty without one.
+    plan: str = ""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Question:
     """A question of a user, as faces list it."""
 
+    #: The module of its answer, see :class:`AnswerModule`.
+    module: str
     name: str
     #: The help: its first paragraph stands in lists.
     help: str
@@ -236,9 +243,12 @@ class Question:
     own_kinds: Sequence[str] = ()
     #: True where the help has the options behind all others.
     has_options_last: bool = False
-    #: Reads and checks all of a request. Raises :class:`~ballscrew.basis.errors.InputError` for faults in it.
-    prepare: Callable[[Request], Work]
-    endpoint: Endpoint
+    endpoint: Endpoint = Endpoint()
+
+    @property
+    def answer(self) -> AnswerModule:
+        """The module of its answer, loaded when it is first asked for."""
+        return cast("AnswerModule", importlib.import_module(self.module))
 
     @property
     def sent_options(self) -> Sequence[type]:

@@ -1,4 +1,4 @@
-"""Tables on the terminal and numbers in them."""
+"""Numbers in texts, and tables in Markdown."""
 
 from __future__ import annotations
 
@@ -6,22 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from rich.table import Table
-
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity
-
-
-def table_of(title: str, *columns: str) -> Table:
-    """An empty table with a bold title, the first column aligned left and the others right.
-
-    In a narrow terminal cells go on in the next line; none is cut.
-    """
-    table = Table(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False)
-    table.add_column(columns[0], overflow="fold")
-    for column in columns[1:]:
-        table.add_column(column, justify="right", overflow="fold")
-    return table
 
 
 def shown_or_dash(value: Any, quantity: Quantity, toward: int = 0) -> str:

@@ -14,8 +14,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import of_case
 from ballscrew.engine.uncertainty.bands import ENDS, inner_end, inner_levels
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.answer_parts import Said
-from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, schema
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT
 from ballscrew.questions.sweep.compute import Plan, implausible, starved
 
 
@@ -118,7 +117,3 @@ def warnings(dataset: xr.Dataset) -> list[Record]:
         return []
     message = f"{units.number(count, 9)} of {units.number(valid.size, 9)} points lie outside the model's validity"
     return [Record.warning("validity.points", "valid", message, value=float(count), limit=0.0)]
-
-
-class Sweep(schema(SweepResults), Said):
-    """Results over ranges of the operating point or of other fields."""

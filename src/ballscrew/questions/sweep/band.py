@@ -20,9 +20,8 @@ from ballscrew.engine.uncertainty.bands import ENDS, INNER_LEVELS, NUT_SAMPLES, 
 from ballscrew.engine.uncertainty.distributions import Distribution, scaled
 from ballscrew.engine.uncertainty.monte_carlo import Joint
 from ballscrew.physics.components.oil_grades import TEMPERATURE
-from ballscrew.questions.band import compute
+from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.band.compute import LEVEL
-from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.shared.option_values import faults_named
 from ballscrew.questions.sweep.compute import FLOODED, Plan, given_of_oil, unvaried
 

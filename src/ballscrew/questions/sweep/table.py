@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import dataclasses
-import io
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -245,21 +244,9 @@ def _inputs(dataset: xr.Dataset, plan: Plan) -> Iterator[list[Any]]:
 
 def _xlsx(dataset: xr.Dataset, plan: Plan) -> bytes:
     """One sheet a table where there are two axes, and one sheet with a row a point."""
-    import xlsxwriter
-
-    buffer = io.BytesIO()
-    workbook = xlsxwriter.Workbook(buffer, {"in_memory": True, "nan_inf_to_errors": True})
-    bold = workbook.add_format({"bold": True})
     sheets: dict[str, Iterator[list[Any]]] = {}
     if len(plan.axes) == 2 and SCREW not in dataset.dims:
         sheets |= {name[:31]: table(dataset, plan, name) for name in plan.columns}
     sheets["points"] = _rows(dataset, plan)
     sheets["inputs"] = _inputs(dataset, plan)
-    for title, rows in sheets.items():
-        sheet = workbook.add_worksheet(title)
-        sheet.freeze_panes(1, 1 if title != "points" else 0)
-        for number, row in enumerate(rows):
-            sheet.write_row(number, 0, row, bold if number == 0 else None)
-        sheet.autofit()
-    workbook.close()
-    return buffer.getvalue()
+    return every_row.xlsx_bytes(sheets, without_names=("points",))

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
+from ballscrew.basis.atomic_files import check_writable, write_error
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import (
     AngularSpeed,
     Conductance,
@@ -20,13 +23,18 @@ from ballscrew.basis.quantities import (
 )
 from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import duty_tables
-from ballscrew.questions.shared.answer_parts import Assumed, Open, Tables, field
-from ballscrew.questions.shared.envelope import envelope
-from ballscrew.questions.warm_up import verdicts
+from ballscrew.questions.shared import every_row
+from ballscrew.questions.shared.charts import SUFFIXES
+from ballscrew.questions.shared.declared import envelope
+from ballscrew.questions.shared.option_values import read, without_band
+from ballscrew.questions.shared.question import Answer, Done, Request, Work
+from ballscrew.questions.warm_up import DriftOptions, WarmUpOptions, compute, verdicts
 from ballscrew.questions.warm_up.compute import AT_START, PLACE, Equilibrium, Heat, OverTime, WarmUpReport
+from ballscrew.questions.warm_up.sheet import sheet
 
 if TYPE_CHECKING:
     from ballscrew.questions.warm_up.band import WarmUpBandReport
+
 
 _Places = Annotated[Sequence[float], Unit("m"), PLACE.info]
 _GROWTH = Info(r"\Delta L", "growth there", "um")
@@ -182,18 +190,71 @@ def _over_time(report: WarmUpReport) -> dict[str, Any]:
     }
 
 
-class WarmUpBands(Open):
-    """Bands over time and in the steady state."""
+_TO = "--to"
 
-    level: float
-    samples: int
-    time: list[float] = field("instants, SI", "s")
-    known_share: list[float] = field("share of the samples whose friction is known at each instant")
-    equilibrium: Tables
-    inputs: Tables
+#: Files that a folder gets, with the columns that they have alone.
+_FILES = {
+    "warm_up.csv": "over time",
+    "warm_up.xlsx": "",
+    "compensation.csv": "compensation",
+    "warm_up_band.csv": "band",
+    "warm_up.png": "",
+}
 
 
-class BesideWarmUp(Assumed):
-    """What is assumed, and the bands where they are asked for."""
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    drift, cool_down = request.options(DriftOptions), request.written["cool_down"]
+    rest = (compute.REST if drift.drift_cycle else 0.0) if cool_down is None else cool_down
+    options = read(WarmUpOptions, {**request.written, "cool_down": rest})
+    if not options.band:
+        of_band = {"--samples": options.samples, "--level": options.level, "--only-given": options.only_given or None}
+        raise_if_any(without_band(of_band))
+    compute.check_hours(options.hours, options.cool_down)
+    if drift.feed_share is not None and not drift.drift_cycle:
+        raise InputError(Fault("--feed-share", "needs --drift-cycle", f"{drift.feed_share:g}", "add --drift-cycle"))
+    case = request.load(compute.moves)
+    if drift.drift_cycle:
+        case = compute.drift_cycle(case, compute.FEED_SHARE if drift.feed_share is None else drift.feed_share)
 
-    band: WarmUpBands = field(optional=True)
+    def answer(done: Done) -> Answer:
+        if not options.band:
+            report = compute.warmed_up(case, options.hours, options.cool_down)
+            return Answer(sheet(report), lambda: document(report))
+        from ballscrew.questions.warm_up.band import band  # loads xarray
+
+        bands = band(
+            case,
+            options.hours,
+            options.cool_down,
+            samples=options.samples,
+            level=options.level,
+            only_given=options.only_given,
+            done=done,
+        )
+        return Answer(sheet(bands.report, bands), lambda: with_band(bands))
+
+    files = [file for place in request.to for file in _files(place, options.band).items()]
+    return Work(answer, "band" if options.band else "", dict(files))
+
+
+def _files(place: Path, has_band: bool) -> dict[Path, str]:
+    """The files of a place: itself if it ends as one, or those of a folder, which is made. They can be written."""
+    known = (*every_row.KINDS, *SUFFIXES)
+    if place.suffix and not place.is_dir():
+        if place.suffix.lower() not in known:
+            remedy = f"end it in {', '.join(known[:-1])} or {known[-1]}, or name a folder"
+            raise InputError(Fault(_TO, "unknown kind of file", str(place), remedy))
+        files = {place: ""}
+    else:
+        try:
+            place.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise write_error(_TO, place, error) from None
+        files = {place / name: columns for name, columns in _FILES.items() if has_band or columns != "band"}
+    for path in files:
+        if path.suffix.lower() in every_row.KINDS:
+            every_row.check_path(path)
+        else:
+            check_writable(_TO, path)
+    return files

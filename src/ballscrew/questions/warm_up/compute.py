@@ -234,16 +234,6 @@ def check_hours(hours: float, cool_down: float) -> None:
     raise_if_any(faults)
 
 
-def option_faults(band: bool, samples: int | None, level: float | None, only_given: bool) -> list[Fault]:
-    """Options of a band where none is asked for."""
-    given = {"--samples": samples, "--level": level, "--only-given": only_given or None}
-    return [
-        Fault(name, "needs --band", str(value), "add --band")
-        for name, value in given.items()
-        if value is not None and not band
-    ]
-
-
 def drift_cycle(case: Case, share: float = FEED_SHARE) -> Case:
     """The case with a cycle like that of the drift test of ISO 230-3: the full stroke to and fro at a share of rapid.
 

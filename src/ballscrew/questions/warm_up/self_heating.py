@@ -15,11 +15,13 @@ from ballscrew.axis.thermal.warm_up import Equilibrium, equilibrium, steady_heat
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Temperature, Torque, quantities_of
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import from_attributes
 from ballscrew.questions.warm_up.compute import (
     EQUILIBRIUM,
@@ -110,6 +112,17 @@ class SelfHeating:
             flooded_oil_temperature=self.flooded.oil_temperature,
         )
 
+    def within(self, document: Mapping[str, Any]) -> dict[str, Any]:
+        """A document with the numbers of self-heating; its inputs are those of the case as it was given."""
+        return {
+            **document,
+            "inputs": inputs(self.given),
+            "results": {**document.get("results", {}), "self_heating": declared.document(self.numbers)},
+            "units": {**document.get("units", {}), "self_heating": declared.units(self.numbers)},
+            "assumed": [*document.get("assumed", ()), *self.assumed],
+            "verdicts": [*documents(self.records), *document["verdicts"]],
+        }
+
     @property
     def records(self) -> list[Record]:
         """What was taken in place of what and what it does, and starvation."""
@@ -151,7 +164,6 @@ class SelfHeating:
             "verdict.self_heating",
             "lubricant.temperature",
             message,
-            severity="info",
             holds=True,
             value=end.oil_temperature,
             unit="K",

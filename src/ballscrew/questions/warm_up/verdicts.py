@@ -172,4 +172,4 @@ def _long_cycle(report: WarmUpReport) -> list[Record]:
         "with the nut; torque is the mean of a cycle at the oil and preload of each instant, and the steady "
         "state that of heat spread over the stroke"
     )
-    return [Record("verdict.long_cycle", "motion", message, severity="info", holds=True, value=cycle, unit="s")]
+    return [Record("verdict.long_cycle", "motion", message, holds=True, value=cycle, unit="s")]

@@ -21,7 +21,7 @@ from ballscrew.physics.sizing.ratings import ratings_of
 _COLUMNS = ("estimated", "value", "from", "to", "where it is from")
 
 
-def document(own_nut: OwnNut) -> dict[str, Any]:
+def own_nut_document(own_nut: OwnNut) -> dict[str, Any]:
     """The nut as the tables of a case, what was estimated with its band in SI, and what does not go together."""
     return {
         "name": own_nut.row.name,
@@ -44,7 +44,7 @@ def _estimate(one: Estimate) -> dict[str, Any]:
     }
 
 
-def text(own_nut: OwnNut) -> str:
+def own_nut_text(own_nut: OwnNut) -> str:
     """What was estimated, one line each, and what does not go together."""
     rows = [
         (

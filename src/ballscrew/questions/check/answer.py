@@ -1,4 +1,4 @@
-"""Checks of a screw: from a catalogue row or a case to friction, ratings, life and limits."""
+"""Checks of a screw: from a catalogue row or a case to friction, ratings, life and limits; their document."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, NamedTuple
-
-from pydantic import Field
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
@@ -25,18 +23,13 @@ from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check, all_hold, checks, half_loads, judged, verdict_at_point
 from ballscrew.physics.sizing.makers_tables import speed_limit_of
 from ballscrew.physics.sizing.ratings import PRELOADED, Ratings, lists_preload, ratings_of
-from ballscrew.questions.check.options import flags
+from ballscrew.questions.check import flags
 from ballscrew.questions.run import answer as run
-from ballscrew.questions.run.answer import RunResults, results
-from ballscrew.questions.run.compute import NutLoads, NutState, Run, with_nut
-from ballscrew.questions.run.response import VENDOR_ROWS
-from ballscrew.questions.shared.answer_parts import JudgedCheck
+from ballscrew.questions.run.answer import results
+from ballscrew.questions.run.compute import NutState, Run, with_nut
 from ballscrew.questions.shared.check_lines import source_document, with_unlikely
-from ballscrew.questions.shared.declared import response, with_answers
-from ballscrew.questions.shared.envelope import numbers
-from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of
-from ballscrew.questions.shared.own_screws import tables_of_row
-from ballscrew.questions.warm_up.self_heating_document import with_self_heating
+from ballscrew.questions.shared.declared import numbers
+from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of, tables_of_row
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
@@ -362,31 +355,10 @@ def _computed(case: Case) -> Ratings | None:
         return None
 
 
-class OneCheck(JudgedCheck):
-    """A check with its text for people."""
-
-    passes: bool | None = Field(description="as ``holds``")
-    words: str = Field(description="as ``text``")
-
-
-class Beside(with_answers(geometry=Geometry, loads=NutLoads, vendor_rows=VENDOR_ROWS, ratings=BothRatings)):
-    """What the checks of a case have beside its results."""
-
-    checks: list[OneCheck]
-    judged: int = Field(description="number of the checks that were judged; the others lack an input")
-    holds: bool = Field(description="true where all checks were judged and hold")
-    verdict: str
-    nut: str = Field(description="kind of the nut; a case without one is checked with a single nut")
-    assumed: list[str]
-
-
-class Checks(response(RunResults, "Checks", beside=Beside)):
-    """The checks of a case, with its results."""
-
-
 def document(checked: Checked) -> dict[str, Any]:
     """The document of one screw, in SI."""
-    return with_self_heating(_document(checked), checked.heating)
+    whole = _document(checked)
+    return whole if checked.heating is None else checked.heating.within(whole)
 
 
 def _document(checked: Checked) -> dict[str, Any]:

@@ -1,14 +1,19 @@
-"""A fit of a moving log: its document and its sheet, with what another filter gives and three models side by side."""
+"""A fit of a moving log, and friction over speed of one at constant speeds: their documents and sheets.
+
+Beside the fit stand what another filter gives, and three models side by side.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import InputError, spoken
 from ballscrew.basis.output.sheet import (
     Axis,
@@ -34,6 +39,7 @@ from ballscrew.basis.output.sheet import (
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.records import documents
 from ballscrew.basis.references import documentation, keys_in
+from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
@@ -47,8 +53,9 @@ from ballscrew.evidence.moving_logs.motion_fit import (
     fit_motion,
 )
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.evidence.moving_logs.power_law import SteadyFriction, steady_friction
 from ballscrew.evidence.moving_logs.screw_model import NAMES
-from ballscrew.questions.fit_motion.options import FitMotionOptions
+from ballscrew.questions.fit import FitMotionOptions
 from ballscrew.questions.shared.declared import attributes
 from ballscrew.questions.shared.options import options_of
 
@@ -374,3 +381,62 @@ def _columns(fit: MotionFit) -> Columns:
             Column(f"force, {SPOKEN[fit.model]}", fit.force(fit.model), _FORCE),
         ],
     )
+
+
+_NUMBERS = ("forward", "backward", "friction", "std", "offset")
+
+
+def friction_over_speed(log: MovingLog, other: MovingLog | None) -> SteadyFriction:
+    """Friction of a log, and of another one of the same axis."""
+    return steady_friction(*[one for one in (log, other) if one is not None])
+
+
+def sheet_over_speed(friction: SteadyFriction, log: MovingLog) -> Sheet:
+    """The table of the speeds, the exponent, and the chart."""
+    drive = Quantity("drive", log.unit, Info("", "drive"))
+    rows = [
+        [
+            units.shown(one.speed, _SPEED, digits=3),
+            *(Number(getattr(one, name), drive, 3) for name in _NUMBERS),
+            str(one.rows),
+            str(one.stretches),
+        ]
+        for one in friction.speeds
+    ]
+    headings = ("speed", "forward", "backward", "friction", "standard error", "offset", "rows", "stretches")
+    low, high = friction.interval
+    exponent = "the speeds do not tell an exponent"
+    if not math.isnan(low):
+        exponent = f"friction as the speed to the power of {friction.exponent:.2f} ({low:.2f} to {high:.2f})"
+    speeds, values = ([getattr(one, name) for one in friction.speeds] for name in ("speed", "friction"))
+    return Sheet(
+        f"{(log.source or ('log', ''))[0]}: friction at constant speed",
+        [
+            Table("speeds", "Drive at constant speed", headings, rows),
+            lines(
+                [exponent, f"speeds are written in steps of {1e3 * friction.resolution:.3g} mm/s", *log.notes], "small"
+            ),
+            Chart(
+                "friction over speed",
+                Axis("speed", _SPEED),
+                Axis("friction", drive),
+                [Curve("friction", speeds, values, "blue", "circles")],
+            ),
+        ],
+    )
+
+
+def document_over_speed(friction: SteadyFriction, log: MovingLog) -> dict[str, Any]:
+    """The same for programs, in SI or amperes."""
+    low, high = friction.interval
+    return {
+        "kind": "steady",
+        "unit": log.unit,
+        "speeds": [
+            {name: getattr(one, name) for name in ("speed", *_NUMBERS, "rows", "stretches")} for one in friction.speeds
+        ],
+        "speed_exponent": None if math.isnan(low) else {"value": friction.exponent, "interval": [low, high]},
+        "resolution": friction.resolution,
+        "notes": list(log.notes),
+        "provenance": {"version": __version__, "log": (log.source or ("log", ""))[0]},
+    }

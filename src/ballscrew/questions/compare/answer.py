@@ -1,4 +1,4 @@
-"""Designs side by side: what each needs against the first, its checks, the parts of its torque; and their sheet."""
+"""Designs side by side, with their sheet; and the answer to a comparison, of them or of the models of one case."""
 
 from __future__ import annotations
 
@@ -14,11 +14,16 @@ from ballscrew.basis.output.sheet import Bar, Bars, Cell, Line, Lines, Number, S
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file, descriptions, project
+from ballscrew.engine.evaluation.comparison import Comparison
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.check.compute import Checked, checked, list_document, with_nut_named
+from ballscrew.questions.check.answer import Checked, checked, list_document, with_nut_named
 from ballscrew.questions.check.sheet import cells
+from ballscrew.questions.compare import CompareOptions
+from ballscrew.questions.compare.compute import comparison, document
+from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared.charts import colour_of
+from ballscrew.questions.shared.question import Answer, Done, Request, Work
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -79,7 +84,7 @@ def _checked(
 COMPARED = ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
 
 
-def document(result: SideBySide) -> dict[str, Any]:
+def document_of_designs(result: SideBySide) -> dict[str, Any]:
     """All designs in SI, each as ``ballscrew check --json`` has it; a change is a share of the value of the first."""
     first = result.designs[0]
     return {
@@ -108,7 +113,7 @@ _HEADINGS = {
 }
 
 
-def sheet(designs: SideBySide) -> Sheet:
+def sheet_of_designs(designs: SideBySide) -> Sheet:
     """All that people see of designs side by side."""
     first = designs.designs[0]
     if designs.own:
@@ -163,3 +168,51 @@ def bars(parts: Mapping[str, Mapping[str, float]], bands: Mapping[str, tuple[flo
         for name, of_design in parts.items()
     ]
     return Bars("friction torque on the screw", _RESULT["screw_torque"], shown)
+
+
+def prepare(request: Request) -> Work:
+    """The work for an answer; a request is read and checked at once."""
+    options = request.options(CompareOptions)
+    paths = request.files["cases"]
+    is_one = not paths or is_one_case(paths)
+    if is_one and options.own:
+        raise InputError(Fault("--own", "is for several designs", "", "name several case files, or a project"))
+    if not is_one and options.self_heating:
+        raise InputError(Fault("--self-heating", "is for one case", "", "compare one design alone"))
+    return _models(request, options) if is_one else _designs(request, options)
+
+
+def _models(request: Request, options: CompareOptions) -> Work:
+    """The comparison of models and laws on one case."""
+    case = request.load()
+
+    def size(compared: Comparison) -> str:
+        return f"{len(compared.rows)} models and laws"
+
+    def answer(done: Done) -> Answer:
+        if not options.self_heating:
+            compared = comparison(case, done)
+            return Answer(sheet(case, compared), lambda: document(case, compared), size(compared))
+        from ballscrew.questions.warm_up.self_heating import self_heating  # its solvers are slow to import
+
+        heating = self_heating(case)
+        warm = comparison(heating.warm, done)
+        return Answer(
+            sheet(heating.warm, warm, heating.records),
+            lambda: heating.within(document(heating.warm, warm)),
+            size(warm),
+        )
+
+    return Work(answer)
+
+
+def _designs(request: Request, options: CompareOptions) -> Work:
+    """The comparison of several designs."""
+
+    def answer(_: object) -> Answer:
+        designs = side_by_side(request.files["cases"], own=options.own, **vars(request.case_options))
+        return Answer(
+            sheet_of_designs(designs), lambda: document_of_designs(designs), f"{len(designs.designs)} designs"
+        )
+
+    return Work(answer)

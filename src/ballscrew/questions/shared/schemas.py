@@ -1,12 +1,17 @@
-"""Parts of the response models that several answers share."""
+"""The response models of answers in the API, from their annotations; and parts that several models have."""
 
 from __future__ import annotations
 
-from typing import Any, Literal, TypeAlias
+import functools
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, TypeAlias, Union, get_args
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from ballscrew.basis.errors import LINES_AT_MOST
+from ballscrew.basis.quantities import unit_of
+from ballscrew.questions.shared.declared import Part, described, is_answer, is_union, origin_of
 
 #: A number; null where it is not finite.
 Number: TypeAlias = float | None
@@ -126,15 +131,6 @@ class JudgedCheck(Record):
     )
 
 
-class Said(Closed):
-    """What is said of results, and what they rest on."""
-
-    verdicts: list[Record]
-    checks: list[Record]
-    warnings: list[Record]
-    provenance: Provenance
-
-
 class Drawing(Closed):
     """A drawing as SVG."""
 
@@ -153,3 +149,80 @@ class NeedSchema(Open):
 
     dialect: str = Field(alias="$schema")
     properties: Tables
+
+
+def schema(cls: type, *, optional: bool = False) -> Any:
+    """The response model of an answer: a name, a type and a description for each part.
+
+    ``optional`` where each part of it may be left out.
+    """
+    return _schema(cls, optional)
+
+
+@functools.cache
+def _schema(cls: type, optional: bool) -> Any:
+    fields = {name: _field(part, optional=optional) for name, part in described(cls).items()}
+    return model(cls.__name__, _first_line(cls), Closed, **fields)
+
+
+def with_answers(**parts: Any) -> Any:
+    """A base of response models with answers as parts: a class, or a sequence of a class, for each name.
+
+    A pair is the class with its field.
+    """
+    pairs = {name: part if isinstance(part, tuple) else (part, ...) for name, part in parts.items()}
+    return with_fields(**{name: (_kind(Part(name, cls)), field) for name, (cls, field) in pairs.items()})
+
+
+def response(cls: type, name: str, *, named: str = "results", judged: bool = False, beside: type | None = None) -> Any:
+    """The response model of a document whose results are an answer, ``named`` so.
+
+    ``judged`` where its checks are of a screw; ``beside`` is a model of what it has besides, or in another form.
+    """
+    base: Any = Shown if beside is None else beside
+    fields = {
+        "inputs": Tables,
+        named: schema(cls),
+        "units": Tables,
+        "verdicts": list[Record],
+        "checks": list[JudgedCheck if judged else Record],
+        "warnings": list[Record],
+        "provenance": Provenance,
+    }
+    own = {name: (kind, ...) for name, kind in fields.items() if name not in base.model_fields}
+    return model(name, _first_line(cls), base, **own)
+
+
+def _first_line(cls: type) -> str:
+    return (cls.__doc__ or "").partition("\n")[0]
+
+
+def _field(part: Part, *, optional: bool = False) -> tuple[Any, Any]:
+    # what may be left out has a default, which the description does not show
+    unit = part.unit or _unit_within(part.bare) or "1"
+    says_unit = unit == "1" or not part.meaning or f", {unit}" in part.meaning
+    words = part.meaning if says_unit else f"{part.meaning}, SI"
+    kind = _kind(part)
+    return (kind | None if part.may_be_none else kind, field(words, unit, optional=optional or part.left_out))
+
+
+def _unit_within(annotation: Any) -> str | None:
+    """The unit of the numbers in a sequence or a mapping; None of others."""
+    return next((unit for each in get_args(annotation) if (unit := unit_of(each) or _unit_within(each))), None)
+
+
+def _kind(part: Part) -> Any:
+    kind, inner = origin_of(part.bare), get_args(part.bare)
+    if part.words_allowed:
+        return Literal[part.words_allowed]
+    if kind is Mapping:
+        return dict[str, _kind(Part("", inner[1]))]
+    if kind is np.ndarray:
+        return list[part.number]
+    if kind is Sequence:
+        return list[part.number if unit_of(inner[0]) or inner[0] is float else _kind(Part("", inner[0]))]
+    if is_union(part.bare):
+        return Union[tuple(_kind(Part("", each)) for each in inner)]  # noqa: UP007  (made at run time)
+    if is_answer(kind):
+        return schema(kind)
+    return part.number if part.unit is not None or kind is float else part.bare  # or a truth value, or texts

@@ -1,1 +1,0 @@
-"""Several cases side by side, with their checks and what differs."""

@@ -1,1 +1,0 @@
-"""Friction of an axis fitted to a log of its motion."""
