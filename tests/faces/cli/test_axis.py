@@ -17,7 +17,6 @@ from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.duty.verdicts import warnings
 from support.axis_cases import load
 from support.commands import ROOT
-from support.pictures import drawn
 
 EXAMPLE = ROOT / "examples" / "feed_axis.toml"
 
@@ -25,25 +24,6 @@ EXAMPLE = ROOT / "examples" / "feed_axis.toml"
 @pytest.fixture(scope="module")
 def case():
     return load(EXAMPLE, [])
-
-
-def test_all_forms(ballscrew, tmp_path):
-    table, picture = tmp_path / "axis.csv", tmp_path / "axis.svg"
-    process = ballscrew("axis", EXAMPLE, "--to", table, "--to", picture)
-    assert process.returncode == 0, process.stderr
-    assert process.stderr == ""
-    for words in ("fixed–supported shaft of 1100 mm", "lost motion", "softest in its travel with the nut at 850 mm",
-                  "bearings 800 N/µm", "mount rigid", "Share of the compliance"):  # fmt: skip
-        assert words in " ".join(process.stdout.split())
-    shown = drawn(picture)
-    assert len(shown.panels) == 4
-    assert "nut from the fixed bearing [mm]" in shown.text
-    places = np.genfromtxt(table, delimiter=",", skip_header=1)
-    found = json.loads(ballscrew("axis", EXAMPLE, "--json").stdout)
-    assert places.shape[0] == len(found["results"]["position"])
-    assert places[:, 1] * 1e6 == pytest.approx(found["results"]["total"], rel=1e-9)
-    assert set(found["units"]) >= set(found["results"]) - {"travel_is_known"}
-    assert found["results"]["mount"][0] is None
 
 
 def test_it_is_the_chain_of_the_parts(case):
@@ -117,12 +97,6 @@ def test_what_is_refused(settings, said):
     with pytest.raises(InputError) as refused:
         chain_of(load(EXAMPLE, settings))
     assert said in str(refused.value)
-
-
-def test_a_case_without_an_installation_says_what_to_add(ballscrew):
-    process = ballscrew("axis", ROOT / "examples" / "olaru2005.toml")
-    assert process.returncode == 2
-    assert "installation: missing section" in process.stderr
 
 
 def test_a_nut_without_preload_and_load_has_no_rigidity():

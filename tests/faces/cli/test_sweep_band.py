@@ -121,27 +121,6 @@ def test_files_have_the_ends_beside_the_values(tmp_path, ballscrew):
     assert len(both.stdout.splitlines()) == 5
 
 
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (["--output", "deflection", "--band"], "--output: has no band (deflection)"),
-        (["--band", "--to", "map.zarr"], "--band: fills no store"),
-        (["--band", "--self-heating"], "--band: is given beside --self-heating"),
-        (["--samples", "1"], "--samples: must be a whole number"),
-        (["--level", "2"], "--level: must lie between 0 and 1"),
-        (["--json", "--rows", "screws.csv"], "--json: is of one screw"),
-    ],
-)
-def test_what_has_no_band_is_said(options, said, ballscrew, tmp_path):
-    if "screws.csv" in options:
-        (tmp_path / "screws.csv").write_bytes((EXAMPLES / "screws.csv").read_bytes())
-        options = [*options[:-1], tmp_path / "screws.csv"]
-    process = ballscrew("sweep", DRIVE, "--vary", "screw_speed=100, 200 rpm", *options)
-    assert process.returncode
-    assert said in process.stderr
-    assert isinstance(process.stdout, str)
-
-
 def test_options_of_a_band_are_checked_before_it():
     with pytest.raises(InputError, match=r"^--samples"):
         swept(case_file.load(DRIVE), ["screw_speed=100, 200 rpm"], options=BandOptions(samples=1))
