@@ -18,6 +18,7 @@ from ballscrew.cases.screw_tables.catalogue import case_text, chosen
 from ballscrew.cases.screw_tables.nut_kinds import kind_in, kind_of
 from ballscrew.physics.sizing.catalogue import SMALLEST_BALL, CatalogueRow, catalogue, printed_rows
 from ballscrew.physics.sizing.listed_nut import NUTS
+from support.commands import ROOT
 from support.processes import refused
 
 DATA = Path(__file__).parents[1] / "data"
@@ -352,7 +353,7 @@ def test_a_name_that_the_catalogue_in_python_does_not_have():
 
 
 def test_a_case_is_loaded_by_its_path_as_text():
-    path = Path(__file__).parents[2] / "examples" / "feed_drive.toml"
+    path = ROOT / "examples" / "feed_drive.toml"
     assert case_file.load(str(path)).screw == case_file.load(path).screw
     with pytest.raises(bs.InputError, match=r"nowhere\.toml: does not exist"):
         case_file.load("nowhere.toml")

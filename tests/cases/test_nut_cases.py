@@ -6,7 +6,6 @@ import io
 import json
 import math
 import tomllib
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,8 +22,8 @@ from ballscrew.physics.laws.nut_losses import LipSeals, ReturnBraking, Seals, Sh
 from ballscrew.physics.sizing.listed_nut import NUTS
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.run.compute import run
+from support.commands import ROOT
 
-ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 RPM = 2 * math.pi / 60

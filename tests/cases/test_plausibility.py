@@ -4,7 +4,6 @@ import dataclasses
 import math
 import tomllib
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,8 +21,8 @@ from ballscrew.physics.friction.validity import implausible, named_parts
 from ballscrew.physics.laws.rolling import Hysteresis
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.validate import compute
+from support.commands import ROOT
 
-ROOT = Path(__file__).parents[2]
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
 OIL = bs.Lubricant.from_grade("ISO VG 100")
 MODEL = bs.FrictionModel.reference()

@@ -8,7 +8,6 @@ import re
 import subprocess
 import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import openpyxl
@@ -17,8 +16,8 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.faces.cli import main
+from support.commands import ROOT
 
-ROOT = Path(__file__).parents[3]
 PAPER = {
     "pitch_circle_diameter": 0.040, "lead": 0.005, "ball_diameter": 3.175e-3, "loaded_balls": 56,
     "contact_angle": math.pi / 4, "screw_conformity": 0.515, "nut_conformity": 0.515,

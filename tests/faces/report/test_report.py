@@ -10,7 +10,6 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from html.parser import HTMLParser
-from pathlib import Path
 
 import numpy as np
 import pypdf
@@ -44,8 +43,8 @@ from ballscrew.physics.laws.nut_losses import ConstantTorque
 from ballscrew.questions.band import compute
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.run.compute import run
+from support.commands import ROOT
 
-ROOT = Path(__file__).parents[3]
 EXAMPLES = sorted(path.name for path in (ROOT / "examples").glob("*.toml"))
 #: Enough for the words, and quick.
 SAMPLES = 64

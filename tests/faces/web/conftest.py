@@ -21,9 +21,8 @@ import pytest
 from playwright.sync_api import ConsoleMessage, Error, Page, Request
 
 from ballscrew.faces.web.server import application
-from support.commands import Commands
+from support.commands import ROOT, Commands
 
-ROOT = Path(__file__).parents[3]
 #: A warning of NumPy in the server is a defect: nobody would see it.
 ERRORS = ["RuntimeWarning"]
 #: Seconds of one request: longer than any takes, also on a busy machine.

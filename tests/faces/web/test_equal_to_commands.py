@@ -3,7 +3,6 @@
 import json
 import math
 import tomllib
-from pathlib import Path
 
 import pytest
 import typer.testing
@@ -12,9 +11,10 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli import main
 from ballscrew.physics.sizing.catalogue import catalogue
+from support.commands import ROOT
 from support.documents import assert_same, differences
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 #: A row of balls, a nut of elastic bodies, and one that moves; that every example is answered is a test of commands.
 KINDS = [EXAMPLES / f"{name}.toml" for name in ("olaru2005", "catalogue_screw", "vertical_axis")]
 PAPER = KINDS[0]

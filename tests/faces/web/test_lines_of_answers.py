@@ -4,7 +4,6 @@ import asyncio
 import json
 import threading
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -14,11 +13,12 @@ from ballscrew.faces.web.bodies import case_of
 from ballscrew.faces.web.request_queue import OUT_OF_TIME, RequestQueue
 from ballscrew.questions.curves import curves
 from ballscrew.questions.run import compute
+from support.commands import ROOT
 from support.documents import assert_same
 
 from .conftest import asking, run_scene
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 #: Seconds of a request, also on a busy machine.
 LONG = 600
 

@@ -1,13 +1,13 @@
 """``ballscrew service``: two logs, one log, one torque; as words, JSON and picture; and what is refused."""
 
 import shutil
-from pathlib import Path
 
 import pytest
 
+from support.commands import ROOT
 from support.processes import document_of
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 CASE, NEW, WORN = (EXAMPLES / name for name in ("service.toml", "nut_new.csv", "nut_worn.csv"))
 #: The model of the paper answers the quickest.
 QUICK = ("--case", CASE, "--model", "olaru2005")

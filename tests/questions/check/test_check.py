@@ -2,7 +2,6 @@
 
 import json
 import math
-from pathlib import Path
 
 import pytest
 
@@ -12,9 +11,9 @@ from ballscrew.physics.equations import life
 from ballscrew.physics.sizing.catalogue import printed_rows
 from ballscrew.physics.sizing.checks import loads_of_halves
 from ballscrew.questions.check import compute
+from support.commands import ROOT
 from support.processes import refused
 
-ROOT = Path(__file__).parents[3]
 EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
 SCREWS = ROOT / "examples" / "screws.csv"
 NAME = "rexroth-40x10x6-6-double"

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,8 +14,9 @@ from ballscrew.questions.band import compute
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.sweep import compute as sweep
 from ballscrew.questions.sweep.band import with_band
+from support.commands import ROOT
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 DRIVE = EXAMPLES / "feed_drive.toml"
 #: Both have the same samples: however few they are, the ends are equal.
 OPTIONS = BandOptions(samples=64)

@@ -3,7 +3,6 @@
 import json
 import math
 import re
-from pathlib import Path
 
 import pytest
 
@@ -14,8 +13,9 @@ from ballscrew.cases.case_files.case import NO_ORIGINS
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.questions.sensitivity import answer
 from ballscrew.questions.sensitivity.answer import LAWS_STAY, sheet
+from support.commands import ROOT
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 #: Two inputs that the case gives a distribution, one of them without any effect on the torque of this model.
 GIVEN = [
     "screw.screw_conformity=0.515 ± 0.005",

@@ -16,15 +16,15 @@ from ballscrew.physics.friction.model import presets
 from ballscrew.questions.compare import compute
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import charts
+from support.commands import ROOT
 from support.pictures import words_of
 from support.processes import document_of
 
 
 @pytest.fixture(scope="module")
 def paper():
-    from pathlib import Path
 
-    return case_file.load(Path(__file__).parents[3] / "examples" / "olaru2005.toml", model="reference")
+    return case_file.load(ROOT / "examples" / "olaru2005.toml", model="reference")
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,6 @@
 import json
 import math
 import re
-from pathlib import Path
 
 import pytest
 
@@ -11,8 +10,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.screw_tables.catalogue import case_text, screws
 from ballscrew.questions.compare.compute import comparison
 from ballscrew.questions.run.compute import run
+from support.commands import ROOT
 
-AXIS = Path(__file__).parents[3] / "examples" / "vertical_axis.toml"  # seals of 0.3 N m
+AXIS = ROOT / "examples" / "vertical_axis.toml"  # seals of 0.3 N m
 OWN = """name;make;d0 [mm];Ph [mm];Dw [mm];turns;Ca [kN];nut;preload;seals
 A;THK;40;10;6;5;50;double;7 %;standard
 B;Rexroth;40;10;6;5;50;double;7 %;standard

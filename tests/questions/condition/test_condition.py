@@ -1,7 +1,5 @@
 """``ballscrew condition``: a table, logs; as words, JSON and picture; and what is refused."""
 
-from pathlib import Path
-
 import pytest
 
 from ballscrew.basis.output.sheet import Chart, Columns, Table
@@ -9,10 +7,11 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.questions.condition import answer
 from ballscrew.questions.condition.answer import sheet
 from ballscrew.questions.condition.options import ConditionOptions
+from support.commands import ROOT
 from support.pictures import drawn
 from support.processes import document_of
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 TABLE, CASE, NEW, WORN = (
     EXAMPLES / name for name in ("nut_over_years.csv", "service.toml", "nut_new.csv", "nut_worn.csv")
 )
