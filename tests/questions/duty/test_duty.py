@@ -14,22 +14,11 @@ from ballscrew.faces.cli.main import main
 from ballscrew.questions.duty import answer, compute
 from ballscrew.questions.duty.compute import duty
 from support.commands import ROOT
+from support.own_screws import WITH_OIL
 
 EXAMPLE = ROOT / "examples" / "vertical_axis.toml"
 #: The model of the paper answers the quickest, of balls that are all alike.
-SCREW = """
-[screw]
-pitch_circle_diameter = "40 mm"
-lead = "10 mm"
-ball_diameter = "6 mm"
-loaded_balls = 60
-contact_angle = "45 deg"
-screw_conformity = 0.54
-nut_conformity = 0.54
-dynamic_load_rating = "5.4 kN"
-[lubricant]
-grade = "ISO VG 100"
-"""
+SCREW = WITH_OIL.replace("[lubricant]", 'dynamic_load_rating = "5.4 kN"\n[lubricant]')
 #: Horizontal, THK514E: 80 kg, lead 40 mm, 1 m at 1 m/s in 0.15 s, rests of 2.6 s.
 THK = (
     SCREW.replace('lead = "10 mm"', 'lead = "40 mm"')

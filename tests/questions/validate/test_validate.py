@@ -17,6 +17,7 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.shared.charts import house_style
 from ballscrew.questions.validate import answer, compute, sheet
 from support.documents import assert_same
+from support.own_screws import SCREW
 from support.processes import document_of, refused
 from support.validation_sets import every_set
 
@@ -330,13 +331,10 @@ def test_own_rows_are_not_the_vendors(ballscrew, own):
 
 
 CASE = {
-    "screw": {
-        "pitch_circle_diameter": "41.4 mm", "lead": "10 mm", "ball_diameter": "6.35 mm", "loaded_balls": 75,
-        "contact_angle": "45 deg", "screw_conformity": 0.54, "nut_conformity": 0.54,
-    },
+    "screw": SCREW,
     "lubricant": {"viscosity": "100 mPa s"},
     "operation": {"axial_load": "5 kN", "screw_speed": "600 rpm"},
-}  # fmt: skip
+}
 
 
 def test_a_case_with_a_calibration():

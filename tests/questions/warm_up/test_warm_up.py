@@ -23,20 +23,13 @@ from ballscrew.questions.warm_up.compute import SERIES, moves, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
 from ballscrew.questions.warm_up.sheet import sheet
 from support.commands import ROOT
+from support.own_screws import WITH_OIL
 
 EXAMPLE = ROOT / "examples" / "warm_up.toml"
 #: A single nut at one operating point; without a nut the model answers the quickest.
-POINT = """
-[screw]
-pitch_circle_diameter = "40 mm"
-lead = "10 mm"
-ball_diameter = "6 mm"
-loaded_balls = 60
-contact_angle = "45 deg"
-screw_conformity = 0.54
-nut_conformity = 0.54
-[lubricant]
-grade = "ISO VG 100"
+POINT = (
+    WITH_OIL
+    + """\
 temperature = "30 degC"
 [operation]
 axial_load = "4 kN"
@@ -44,6 +37,7 @@ screw_speed = "1000 rpm"
 [surroundings]
 shaft_length = "1 m"
 """
+)
 #: Where places and lengths are looked at, friction may be that of the paper: the model is recorded in no time.
 SIMPLE = "model.name=olaru2005"
 DOUBLE = '[nut]\ntype = "double"\npreload = "3 kN"\n'
