@@ -205,18 +205,20 @@ def test_a_document_is_valid_by_its_schema(answer):
     json.dumps(document, allow_nan=False)
 
 
+#: Answers whose units have the places of their numbers.
+by_place = pytest.mark.parametrize("answer", [name for name in MADE if not name.startswith(BY_NAME)], indirect=True)
+
+
+@by_place
 def test_every_number_has_a_unit(answer):
     name, document, *_ = answer
-    if name.startswith(BY_NAME):
-        pytest.skip("its units are by name")
     found = {each for each in without_unit(document["results"], document["units"]) if not each.endswith("_sign")}
     assert found <= OWN_UNITS.get(name.partition(" ")[0], set())
 
 
+@by_place
 def test_units_are_those_of_the_schema(answer):
-    name, document, _, model = answer
-    if name.startswith(BY_NAME):
-        pytest.skip("its units are by name")
+    _, document, _, model = answer
     schema = model.model_json_schema()
     results = resolved(schema["properties"]["results"], schema["$defs"])
     described = {"properties": schema["properties"] | results["properties"]}
@@ -231,10 +233,10 @@ def test_every_record_is_said_once_on_the_sheet(answer):
     assert len(set(identities)) == len(identities)
 
 
+#: Not where rubbing and braking stand in one column, or rows of residuals are counted.
+@pytest.mark.parametrize("answer", [name for name in MADE if not name.startswith(("compare", "fit"))], indirect=True)
 def test_every_number_of_a_table_is_in_the_document(answer):
-    name, document, sheet, _ = answer
-    if name.startswith(("compare", "fit")):
-        pytest.skip("rubbing and braking stand in one column, and rows of residuals are counted")
+    _, document, sheet, _ = answer
     known = np.array(list(numbers_of(document)))
     rows = [row for table in sheet.of_kind(Table) for row in table.rows if not row[0].startswith(MADE_OF_OTHERS)]
     numbers = [cell.value for row in rows for cell in row if isinstance(cell, Number) and cell.value is not None]
