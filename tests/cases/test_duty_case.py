@@ -5,11 +5,11 @@ import tomllib
 
 import pytest
 
-from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.duty_cycle.axis import Motor
 from ballscrew.axis.motion.profiles import SCurve, Segments, Sine, Trapezoid
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.physics.solvers import load_distribution
 from ballscrew.questions.duty.compute import duty

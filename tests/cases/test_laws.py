@@ -12,11 +12,10 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.friction.model import presets
+from ballscrew.physics.friction.model import LAWS, presets
 from ballscrew.physics.laws import ball_chain, friction, rolling
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.slip import curvature_slip

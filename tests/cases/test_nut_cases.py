@@ -13,14 +13,13 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.inputs import inputs, references
+from ballscrew.cases.case_files.descriptions import inputs, references
 from ballscrew.cases.schema.case_schema import NUT_TABLES, json_schema, validated
 from ballscrew.cases.screw_tables.nut_kinds import kind_of
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.physics.components.nut import Bodies, Deviations
 from ballscrew.physics.laws.nut_losses import LipSeals, ReturnBraking, Seals, ShearedOil, SpinUp
-from ballscrew.physics.sizing.listed_nut import NUTS
-from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.physics.sizing.ratings import NUTS, ratings_of
 from ballscrew.questions.run.compute import run
 from support.commands import ROOT
 

@@ -9,7 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, descriptions
-from ballscrew.cases.case_files.inputs import inputs, references
+from ballscrew.cases.case_files.descriptions import inputs, references
 from ballscrew.faces.web.bodies import case_of
 
 TABLES = {

@@ -7,7 +7,7 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.inputs import inputs
+from ballscrew.cases.case_files.descriptions import inputs
 
 MODULE = """
 import dataclasses

@@ -11,10 +11,10 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.compiler.tracing.program import Program
-from ballscrew.compiler.tracing.steps import Step
+from ballscrew.compiler.tracing.tape import Step
 from ballscrew.exports.export import Export, target
-from ballscrew.exports.programs import c99, c_source, interpreter, program_file
-from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.exports.programs import c99, c_source, interpreter
+from ballscrew.physics.friction.model import LAWS
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.solvers.line_slip import TOLERANCE, line_slip
 
@@ -72,7 +72,7 @@ def program_of_all_operations():
 
     a, b = ("step", 0), ("step", 1)
     below, above = (("step", add(Step(f, (a, b), True))) for f in (np.less, np.greater_equal))
-    for function in program_file.OPERATIONS:
+    for function in interpreter.OPERATIONS:
         name = function.__name__
         if name == "choose":
             operands = (below, a, b)
@@ -100,7 +100,7 @@ def by_numpy(program):
 def test_every_operation_of_the_interpreter_is_one_of_c():
     known = {*c_source.INFIX, *c_source.CALLS, *c_source.TESTS, *c_source.EXTREMES}
     others = {"choose", "invert", "logical_not", "remainder"}
-    assert {f for f in program_file.OPERATIONS if f.__name__ not in others} == known
+    assert {f for f in interpreter.OPERATIONS if f.__name__ not in others} == known
 
 
 @needs_a_compiler
@@ -135,7 +135,7 @@ def test_operations_interpreted():
     program = program_of_all_operations()
     outputs = [name for name in [*program.outputs, *program.constants] if name != "valid"] + ["valid"]
     ranges = dict.fromkeys("ab", (0.0, -np.inf, np.inf))
-    run = interpreter.Interpreted(program_file.file_of(program, ranges, outputs))
+    run = interpreter.Interpreted(interpreter.file_of(program, ranges, outputs))
     found = run.at(dict(zip("ab", POINTS.T, strict=True)))
     wanted = by_numpy(program)
     wanted["valid"] &= ~np.isnan(POINTS).any(axis=1)
@@ -148,7 +148,7 @@ def test_an_operation_that_c_lacks_is_refused():
     with pytest.raises(bs.InputError, match="C has no exp2 · write the law"):
         c_source.functions(program)
     with pytest.raises(bs.InputError, match="the interpreter has no exp2"):
-        program_file.file_of(program, {"a": (0.0, 0.0, 1.0)}, ["valid"])
+        interpreter.file_of(program, {"a": (0.0, 0.0, 1.0)}, ["valid"])
 
 
 def test_a_program_of_more_places_than_two_bytes_name_is_refused():
@@ -156,7 +156,7 @@ def test_a_program_of_more_places_than_two_bytes_name_is_refused():
 
     def of(count):
         outputs = list(constants)[: count - 1]  # and one input
-        return program_file.file_of(
+        return interpreter.file_of(
             Program(1, (), {}, {name: constants[name] for name in outputs}), {"a": (0.0, 0.0, 1.0)}, outputs
         )
 
@@ -171,7 +171,7 @@ def test_a_program_of_more_places_than_two_bytes_name_is_refused():
 )
 def test_a_damaged_program_is_refused(damage):
     program = Program(1, ((1, Step(np.exp, (("step", 0),), False)),), {"valid": 1}, {})
-    whole = program_file.file_of(program, {"a": (0.0, 0.0, 1.0)}, ["valid"])
+    whole = interpreter.file_of(program, {"a": (0.0, 0.0, 1.0)}, ["valid"])
     assert interpreter.Interpreted(whole).outputs == ["valid"]
     with pytest.raises(ValueError, match="damaged"):
         interpreter.Interpreted(damage(whole))
@@ -197,7 +197,7 @@ def test_every_law_interpreted_is_the_model(handed_over, slot):
         model = dataclasses.replace(preset, **{slot: law})
         handed = handed_over(model, NUTS["row"])
         points = handed.sample(300)
-        found = interpreter.Interpreted(program_file.program_file(handed)).at(points)
+        found = interpreter.Interpreted(interpreter.program_file(handed)).at(points)
         wanted = handed.evaluate(points)
         finite = {n: np.isfinite(values.astype(float)) for n, values in wanted.items()}
         for n, where in finite.items():
@@ -210,7 +210,7 @@ def test_every_law_interpreted_is_the_model(handed_over, slot):
 @needs_the_library
 def test_at_rest_and_without_load_there_are_numbers(handed_over):
     handed = handed_over(bs.FrictionModel.olaru2005(), NUTS["double"])
-    at = interpreter.Interpreted(program_file.program_file(handed)).at
+    at = interpreter.Interpreted(interpreter.program_file(handed)).at
     points = {"axial_load": [0.0, 0.0, 500.0, -500.0], "screw_speed": [0.0, 20.0, 0.0, 0.0]}
     points = {n: np.array(v) for n, v in points.items()} | {
         "temperature": np.full(4, 313.15),
@@ -230,7 +230,7 @@ def test_beyond_the_range_the_nearest_value_counts(handed_over):
         ranges={"axial_load": (-2000.0, 2000.0)},
         derivatives=["screw_speed"],
     )
-    at = interpreter.Interpreted(program_file.program_file(handed)).at
+    at = interpreter.Interpreted(interpreter.program_file(handed)).at
     names = handed.input_names
     inside = dict(zip(names, np.array([[2000.0, 30.0, 313.15, 900.0]]).T, strict=True))
     for change in ({"axial_load": 5000.0}, {"axial_load": np.nan}):
@@ -244,7 +244,7 @@ def test_beyond_the_range_the_nearest_value_counts(handed_over):
 @needs_the_library
 def test_derivatives_are_the_slope(handed_over):
     handed = handed_over(bs.FrictionModel.corrected(), NUTS["row"], derivatives=["screw_speed"])
-    at = interpreter.Interpreted(program_file.program_file(handed)).at
+    at = interpreter.Interpreted(interpreter.program_file(handed)).at
     step = 1e-3
     speeds = np.array([40.0 - step, 40.0, 40.0 + step])
     found = at({"axial_load": np.full(3, 900.0), "screw_speed": speeds, "temperature": np.full(3, 313.15)})

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.exports.programs import c99, interpreter, program_file
+from ballscrew.exports.programs import c99, interpreter
 from ballscrew.exports.programs.two_levels import ElasticNut, elastic_nut, two_levels
 from ballscrew.physics.components.nut import Bodies, Scatter
 from ballscrew.physics.friction.loaded_balls import loads_of
@@ -97,13 +97,13 @@ def test_interpreted_is_the_model(handed_over, preset, kind):
     handed = handed_over(getattr(bs.FrictionModel, preset)(), NUTS[kind](Bodies()), outputs=["contact_load"])
     points = handed.sample(30)
     points["axial_load"][-2:], points["screw_speed"][-1] = 0.0, 0.0
-    found = interpreter.Interpreted(program_file.program_file(handed)).at(points)
+    found = interpreter.Interpreted(interpreter.program_file(handed)).at(points)
     compare(found, handed.evaluate(points))
 
 
 @needs_the_library
 def test_a_cut_program_is_refused(handed_over):
-    whole = program_file.program_file(handed_over(bs.FrictionModel.olaru2005(), NUTS["double"](Bodies())))
+    whole = interpreter.program_file(handed_over(bs.FrictionModel.olaru2005(), NUTS["double"](Bodies())))
     for length in range(0, len(whole), 97):
         with pytest.raises(ValueError, match="damaged"):
             interpreter.Interpreted(whole[:length])

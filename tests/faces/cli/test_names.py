@@ -9,7 +9,7 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import MODELS
 from ballscrew.faces.cli import main
-from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.model import LAWS
 from ballscrew.questions.names import KINDS, names, text
 
 

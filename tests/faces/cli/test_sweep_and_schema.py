@@ -53,7 +53,7 @@ def test_every_example_of_the_schema_parses():
     from ballscrew.basis.quantities import fields_of
     from ballscrew.cases.schema import case_schema
     from ballscrew.cases.schema.fields import EXAMPLES
-    from ballscrew.physics.friction.law_names import LAWS
+    from ballscrew.physics.friction.model import LAWS
 
     drive = tomllib.loads((ROOT / "examples" / "feed_drive.toml").read_text(encoding="utf-8"))
     written = {name: value for section in ("screw", "lubricant", "operation") for name, value in drive[section].items()}

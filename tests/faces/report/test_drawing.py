@@ -17,8 +17,8 @@ from matplotlib.ft2font import FT2Font
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.descriptions import title as title_of
 from ballscrew.faces.report import drawing_contact, svg
-from ballscrew.faces.report.contact_geometry import AT_REST, FOUR_CONTACTS, NO_LOAD, NO_NUMBER, NO_SLIP, drawn_ball
 from ballscrew.faces.report.drawing import WIDTH, drawing
+from ballscrew.faces.report.drawing_contact import AT_REST, FOUR_CONTACTS, NO_LOAD, NO_NUMBER, NO_SLIP, drawn_ball
 from ballscrew.faces.report.drawing_section import BALL, RADIUS
 from ballscrew.questions.run.compute import run
 from oracles.contact_integral import contact_integral

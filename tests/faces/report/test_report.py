@@ -21,7 +21,7 @@ from ballscrew.basis.output.sheet import words as words_of
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Origins
-from ballscrew.cases.case_files.inputs import references
+from ballscrew.cases.case_files.descriptions import references
 from ballscrew.faces.report import contents, curve_figures, input_tables
 from ballscrew.faces.report.contents import Heading
 from ballscrew.faces.report.curves import curves

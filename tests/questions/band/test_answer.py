@@ -5,7 +5,7 @@ import pytest
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.makers_rules import by_rules
+from ballscrew.cases.case_files.named_calibration import by_rules
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import compute

@@ -10,7 +10,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.uncertainty.bands import Interval, OutputBand
 from ballscrew.faces.sheets import pictures
-from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.model import LAWS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.rolling import biboulet_houpert_rolling
 from ballscrew.physics.laws.traits import LawTraits, traits_of

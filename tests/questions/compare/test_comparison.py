@@ -11,8 +11,7 @@ from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
 from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.friction.law_names import LAWS
-from ballscrew.physics.friction.model import presets
+from ballscrew.physics.friction.model import LAWS, presets
 from ballscrew.questions.compare import compute
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import charts

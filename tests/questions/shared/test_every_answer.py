@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from ballscrew.basis.output.text import WIDTH
 
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Number, Table
-from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions import records
