@@ -6,6 +6,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.friction.calibrations import calibration_of_make, calibrations
 from ballscrew.physics.laws.friction import LoadSharing
+from support.own_screws import SCREW
 
 TABLES = {
     "screw": {"catalogue": "rexroth-40x10x6-6-double"},
@@ -37,12 +38,8 @@ def test_makers_by_any_capitals():
 
 
 def test_a_screw_without_a_make_has_none():
-    plain = {
-        "pitch_circle_diameter": "41.4 mm", "lead": "10 mm", "ball_diameter": "6.35 mm", "loaded_balls": 75,
-        "contact_angle": "45 deg", "screw_conformity": 0.54, "nut_conformity": 0.54,
-    }  # fmt: skip
     with pytest.raises(InputError, match="--calibration: the make of this nut is not given · take a row of"):
-        case("by-make", screw=plain)
+        case("by-make", screw=SCREW)
 
 
 def test_a_calibration_of_two_contacts_on_four():

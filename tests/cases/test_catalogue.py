@@ -18,6 +18,8 @@ from ballscrew.cases.screw_tables.catalogue import case_text, chosen
 from ballscrew.cases.screw_tables.nut_kinds import kind_in, kind_of
 from ballscrew.physics.sizing.catalogue import SMALLEST_BALL, CatalogueRow, catalogue, printed_rows
 from ballscrew.physics.sizing.ratings import NUTS
+from support.commands import ROOT
+from support.processes import refused
 
 DATA = Path(__file__).parents[1] / "data"
 ROWS = catalogue()
@@ -30,16 +32,6 @@ every_row = pytest.mark.parametrize("row", PRINTED, ids=lambda row: row.name)
 def of_file(name):
     with (DATA / name).open(encoding="utf-8") as stream:
         return list(csv.DictReader(stream))
-
-
-def refused(process, *expected):
-    assert process.returncode == 2
-    assert process.stdout == ""
-    lines = process.stderr.strip().splitlines()
-    assert "Traceback" not in process.stderr
-    assert len(lines) == len(expected), process.stderr
-    for line, text in zip(lines, expected, strict=True):
-        assert text in line
 
 
 # -- the rows shipped -----------------------------------------------------------------------------
@@ -131,24 +123,6 @@ def test_a_ball_in_the_wrong_unit_is_seen():
 # -- for people -----------------------------------------------------------------------------------
 
 
-def test_list(ballscrew):
-    process = ballscrew("catalogue", "list")
-    assert process.returncode == 0, process.stderr
-    lines = process.stdout.splitlines()
-    assert len(lines) == len(ROWS) + 1
-    expected = "name d0 x lead [mm] ball [mm] turns balls/turn loaded C_a [kN] C_0a [kN] source"
-    assert " ".join(lines[0].split()) == expected
-    expected = "rexroth-16x5x3-4-double 16 x 5 3 4 16 60 12.3 16.1 Rexroth R310RU 3301 (2006.02) ratings differ"
-    assert " ".join(lines[1].split()) == expected
-    assert len({line.index("R310RU") for line in lines if "R310RU" in line}) == 1
-
-
-def test_list_with_words(ballscrew):
-    process = ballscrew("catalogue", "list", "REXROTH", "40x", "double")
-    assert [line.split()[0] for line in process.stdout.splitlines()[1:]] == ["rexroth-40x10x6-6-double"]
-    refused(ballscrew("catalogue", "list", "nsk"), "catalogue: no row has these words (nsk) · leave them out")
-
-
 def test_words_choose_the_rows_that_have_all_of_them():
     singles = [name for name in ROWS if name.startswith("rexroth") and name.endswith("single")]
     assert [row.name for row in chosen(ROWS, "Single REXROTH")] == singles
@@ -166,8 +140,6 @@ def test_sizes_are_those_of_the_row_and_not_of_its_name(ballscrew):
     assert names("40x40x2") == ["rexroth-40x40x6-2-single"]
     assert names("x40") == [row.name for row in catalogue().values() if row.lead == 0.04]
     assert names("50x40x6.5-3") == ["rexroth-50x40x6.5-3-single"]
-    remedy = "leave them out to see all rows; sizes are diameter x lead in mm: 40x10, or 40x for all of 40 mm"
-    refused(ballscrew("catalogue", "list", "40x1"), f"catalogue: no row has these words (40x1) · {remedy}")
 
 
 def test_show(ballscrew):
@@ -187,18 +159,6 @@ def test_show(ballscrew):
     assert "pitch circle as large" in ballscrew("catalogue", "show", "rexroth-40x10x6-6-double").stdout
 
 
-def test_names_that_are_not_there(ballscrew):
-    refused(ballscrew("catalogue", "show", "40-20k4"), 'unknown row (40-20k4) · did you mean "hiwin-40-20k4"?')
-    refused(ballscrew("catalogue", "show", "hiwin-40-20k5"), "did you mean")
-    refused(ballscrew("catalogue", "show", "?"), 'catalogue: unknown row (?) · see "ballscrew catalogue list"')
-    nearest = (
-        '"rexroth-32x10x3.969-5-double", "rexroth-32x10x3.969-5-single", "thk-dik3210-6"; "ballscrew catalogue own"'
-    )
-    refused(ballscrew("catalogue", "show", "BNFN3210-5"), nearest)
-    refused(ballscrew("catalogue", "show", "R1532 490 13"), 'see "ballscrew catalogue list"')
-    refused(ballscrew("catalogue", "show", "hiwin-40-20k4", "--case", "--json"), "--case: does not go with --json")
-
-
 @every_row
 def test_a_case_is_the_screw_of_the_row(row, tmp_path):
     path = tmp_path / "my.toml"
@@ -216,15 +176,6 @@ def test_a_case_is_the_screw_of_the_row(row, tmp_path):
     assert case.operation.axial_load == pytest.approx(row.dynamic_load_rating / 10, rel=1e-5)
     assert case.operation.screw_speed == pytest.approx(20 * math.pi)
     assert case.origins.oil == {"grade": "ISO VG 100", "temperature": pytest.approx(313.15)}
-
-
-def test_a_case_runs(ballscrew, tmp_path):
-    process = ballscrew("catalogue", "show", "rexroth-63x40x6.5-3-single", "--case")
-    assert "# a tenth of C_a = 53.4 kN" in process.stdout
-    (tmp_path / "my.toml").write_text(process.stdout, encoding="utf-8")
-    result = ballscrew("run", "my.toml", "--json")
-    assert result.returncode == 0, result.stderr
-    assert json.loads(result.stdout)["inputs"]["operation"]["axial_load"] == pytest.approx(5340.0)
 
 
 def test_json(ballscrew):
@@ -323,7 +274,6 @@ def test_an_unknown_row_is_one_of_its_file(ballscrew, tmp_path):
     refused(ballscrew("catalogue", "show", "zzz", "--rows", "own.csv"), problem)
     refused(ballscrew("check", "zzz", "--rows", "own.csv"), problem)
     refused(ballscrew("catalogue", "list", "zzz", "--rows", "own.csv"), "own.csv: no row has these words (zzz)")
-    refused(ballscrew("catalogue", "show", "zzz"), 'catalogue: unknown row (zzz) · see "ballscrew catalogue list"')
 
 
 def test_a_spreadsheet_of_ones_own(ballscrew, tmp_path):
@@ -392,14 +342,6 @@ def test_files_that_are_no_table(ballscrew, tmp_path):
     refused(ballscrew("catalogue", "list", "--rows", "bad.csv", "--keep-going"), "must be positive (-1)")
 
 
-def test_help_is_quick_and_says_what_there_is(ballscrew):
-    process = ballscrew("catalogue", "list", "--help")
-    assert process.returncode == 0
-    for text in ("--rows", "--json", "--keep-going"):
-        assert text in process.stdout
-    assert "--case" in ballscrew("catalogue", "show", "--help").stdout
-
-
 def test_a_name_that_the_catalogue_in_python_does_not_have():
     rows = bs.catalogue()
     with pytest.raises(bs.InputError, match=r'catalogue: unknown row .*did you mean "rexroth-40x10x6-6-double"'):
@@ -411,7 +353,7 @@ def test_a_name_that_the_catalogue_in_python_does_not_have():
 
 
 def test_a_case_is_loaded_by_its_path_as_text():
-    path = Path(__file__).parents[2] / "examples" / "feed_drive.toml"
+    path = ROOT / "examples" / "feed_drive.toml"
     assert case_file.load(str(path)).screw == case_file.load(path).screw
     with pytest.raises(bs.InputError, match=r"nowhere\.toml: does not exist"):
         case_file.load("nowhere.toml")

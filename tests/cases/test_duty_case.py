@@ -14,19 +14,8 @@ from ballscrew.cases.schema import case_schema
 from ballscrew.physics.solvers import load_distribution
 from ballscrew.questions.duty.compute import duty
 from support.commands import ROOT
+from support.own_screws import WITH_OIL as SCREW
 
-SCREW = """
-[screw]
-pitch_circle_diameter = "40 mm"
-lead = "10 mm"
-ball_diameter = "6 mm"
-loaded_balls = 60
-contact_angle = "45 deg"
-screw_conformity = 0.54
-nut_conformity = 0.54
-[lubricant]
-grade = "ISO VG 100"
-"""
 MOVING = """
 [axis]
 mass = "400 kg"

@@ -2,7 +2,6 @@
 
 import json
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -10,6 +9,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.screw_tables.catalogue import screws
 from ballscrew.cases.screw_tables.own_nut import numbers_in, own_nut_of
+from support.commands import ROOT
 
 FEW = "d0=40 mm, lead=10 mm, turns=2x2.5, Ca=52,7 kN, nut=Double nut, preload=5 %"
 
@@ -77,7 +77,7 @@ def test_a_table_whose_balls_are_estimated(tmp_path):
 
 
 def test_the_nuts_of_thk_are_read_and_none_is_odd():
-    rows = screws(Path(__file__).parents[2] / "examples" / "thk_screws.csv")
+    rows = screws(ROOT / "examples" / "thk_screws.csv")
     assert len(rows) == 97
     # by the lead, as the rows of one lead have one pitch circle; THK prints no ball
     assert all(0.3 < row.ball_diameter / row.lead < 0.7 for row in rows.values())

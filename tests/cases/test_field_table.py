@@ -1,16 +1,14 @@
 """The table of fields in the documentation: what stands there as an example may be written in a case file."""
 
 import importlib.util
-from pathlib import Path
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import within_bounds
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.physics.components.screw import MATERIALS
+from support.commands import ROOT
 from support.rules import for_each
-
-ROOT = Path(__file__).parents[2]
 
 
 def _of_docs(name):

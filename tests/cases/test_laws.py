@@ -196,16 +196,6 @@ def model_inputs(process):
     return json.loads(process.stdout)["inputs"]["model"]
 
 
-def test_settings(example, ballscrew):
-    run = ("run", example, "--json", "--model", "reference")
-    found = model_inputs(ballscrew(*run, "--set", "model.rolling=houpert", "--set", "model.friction.decay=1.9"))
-    assert found["rolling"] == "houpert"
-    assert (found["friction"]["law"], found["friction"]["decay"]) == ("run-in", 1.9)
-    law = ["--set", "model.friction=greenwood-tripp", "--set", "model.friction.asperity_radius=20 um"]
-    found = model_inputs(ballscrew(*run, *law))
-    assert (found["friction"]["law"], found["friction"]["asperity_radius"]) == ("greenwood-tripp", pytest.approx(2e-5))
-
-
 def test_a_coefficient_for_a_law_that_the_file_names(example, tmp_path, ballscrew):
     case = tmp_path / "case.toml"
     case.write_text(example.read_text(encoding="utf-8") + '\nfriction = "balan"\n', encoding="utf-8")
@@ -214,35 +204,6 @@ def test_a_coefficient_for_a_law_that_the_file_names(example, tmp_path, ballscre
     )
     assert found["friction"]["law"] == "balan"
     assert found["friction"]["full_film_friction_coefficient"] == 0.05
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("setting", "expected"),
-    [
-        ("model.rolling=houprt", 'model.rolling: unknown law (houprt) · did you mean "houpert"?'),
-        ("model.friction=3", "model.friction: must be the name of a law, or a table (3)"),
-        ("model.friction.asperity_radius=1 um", 'model.friction.asperity_radius: no coefficient of the law "run-in"'),
-        ("model.pure_rolling_offset=0.34", "model.pure_rolling_offset: can only be imposed where curvature is the"),
-    ],
-)
-def test_bad_settings_are_one_line(setting, expected, example, ballscrew):
-    for command in ("run", "compare", "sweep"):
-        process = ballscrew(command, example, "--model", "reference", "--set", setting)
-        assert process.returncode == 2
-        assert process.stdout == ""
-        assert len(process.stderr.strip().splitlines()) == 1
-        assert process.stderr.startswith(expected)
-
-
-def test_sweep_over_coefficients_of_other_laws(example, ballscrew):
-    laws_ = ["--set", "model.friction=greenwood-tripp", "--model", "reference"]
-    process = ballscrew(
-        "sweep", example, *laws_, "--vary", "friction.asperity_radius=5, 500 um", "--output", "screw_torque"
-    )
-    rows = process.stdout.splitlines()
-    assert rows[0] == "friction asperity radius [um],screw torque [N m],valid"
-    assert float(rows[1].split(",")[1]) != float(rows[2].split(",")[1])
 
 
 # -- JSON Schema ----------------------------------------------------------------------------------

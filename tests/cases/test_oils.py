@@ -1,7 +1,6 @@
 """Oils in case files: by their data sheet, by name in the library or a file of one's own; the library itself."""
 
 import copy
-import json
 import re
 from importlib import resources
 
@@ -132,20 +131,3 @@ def test_the_library_has_its_sources_and_can_be_computed_in_its_range():
 )  # fmt: skip
 def test_the_stated_index_follows_from_the_stated_viscosities(name, index):
     assert LIBRARY[name].viscosity_index == pytest.approx(index, abs=1.5)
-
-
-def test_the_command(ballscrew):
-    listed = ballscrew("oils", "list", "arcanol", "polyurea")
-    assert listed.returncode == 0
-    assert "Arcanol TEMP120" in listed.stdout
-    assert "LOAD150" not in listed.stdout
-    shown = ballscrew("oils", "show", "Arcanol LOAD150")
-    assert "grease: mineral oil, lithium complex soap" in shown.stdout
-    assert "outside the stated range" in shown.stdout
-    document = json.loads(ballscrew("oils", "show", "SHC 230", "--json").stdout)
-    assert document["oils"][0]["kinematic_viscosity_40"] == pytest.approx(220e-6)
-    refused = ballscrew("oils", "show", "SHC 231")
-    assert (refused.returncode, refused.stderr.strip()) == (
-        2,
-        'library: unknown oil (SHC 231) · did you mean "SHC 230"?',
-    )

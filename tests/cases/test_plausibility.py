@@ -1,11 +1,9 @@
 """Plausibility: what no ball screw has is computed with a warning, in Python, in files and in tables alike."""
 
 import dataclasses
-import json
 import math
 import tomllib
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,8 +21,8 @@ from ballscrew.physics.friction.validity import implausible, named_parts
 from ballscrew.physics.laws.rolling import Hysteresis
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.validate import compute
+from support.commands import ROOT
 
-ROOT = Path(__file__).parents[2]
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
 OIL = bs.Lubricant.from_grade("ISO VG 100")
 MODEL = bs.FrictionModel.reference()
@@ -168,20 +166,6 @@ def strange_case(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(CASE.replace('lead = "10 mm"', 'lead = "10 in"'), encoding="utf-8")
     return path
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("command", ["run", "check", "compare", "sensitivity"])
-def test_documents_of_commands(ballscrew, strange_case, command):
-    options = ["--samples", "16"] if command == "sensitivity" else []
-    found = ballscrew(command, strange_case, "--json", *options)
-    records = [r for r in json.loads(found.stdout)["warnings"] if r["id"] == IMPLAUSIBLE]
-    assert [record["subject"] for record in records] == ["screw.lead_angle"]
-    assert "62.89 deg lies outside the usual 0.2 deg to 55 deg" in records[0]["text"]
-    on_the_terminal = ballscrew(command, strange_case, *options)
-    assert "implausible: lead angle of the helix of the ball centres 62.89 deg" in " ".join(
-        on_the_terminal.stdout.split()
-    )
 
 
 def test_a_sweep_on_the_command_line(ballscrew, strange_case):

@@ -4,7 +4,6 @@ import dataclasses
 import json
 import math
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,9 +14,9 @@ from ballscrew.physics.components.screw import odd_preload, rating_of
 from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from ballscrew.physics.sizing.own_nut import odd_ratings
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
-from ballscrew.questions.select.compute import verdict
+from ballscrew.questions.select.answer import verdict
+from support.commands import ROOT
 
-ROOT = Path(__file__).parents[2]
 AXIS = ROOT / "examples" / "vertical_axis.toml"
 FEED = ROOT / "examples" / "feed_drive.toml"
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
@@ -132,7 +131,7 @@ def test_rows_that_are_shipped_are_likely():
 def test_ratings_of_a_catalogue_are_likely_only_with_the_balls_of_their_row():
     """A row whose listed ratings are far from those by its estimated balls, and a nut with fewer balls than its row."""
     subjects = {"screw.dynamic_load_rating", "screw.static_load_rating"}
-    examples = Path(__file__).parents[2] / "examples" / "service.toml"
+    examples = ROOT / "examples" / "service.toml"
     for settings, expected in (
         (["screw.catalogue=thk-bnfn10020a-5"], set()),
         (["screw.catalogue=rexroth-40x10x6-6-double"], set()),

@@ -12,7 +12,7 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis.output.sheet import Columns, Number, Table, words
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.faces.sheets import report_blocks, terminal
+from ballscrew.faces.sheets import terminal
 from ballscrew.physics.laws.inlet import Inlet
 from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.band.answer import verdicts
@@ -20,7 +20,6 @@ from ballscrew.questions.check import answer as check
 from ballscrew.questions.check.sheet import of_rows
 from ballscrew.questions.duty import answer
 from ballscrew.questions.duty.compute import duty
-from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.run import answer as run_documents
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.run.sheet import SHOWN, results_table
@@ -36,7 +35,6 @@ from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.warm_up import answer as warm_up_documents
 from ballscrew.questions.warm_up import self_heating
 from ballscrew.questions.warm_up.compute import warmed_up
-from ballscrew.questions.warm_up.sheet import sheet as warm_up_sheet
 from support.commands import ROOT
 
 COLD = {
@@ -500,15 +498,3 @@ def test_an_export_is_judged_without_load_too():
     idle = case.model(case.screw, case.lubricant.at(298.15), axial_load=0.0, screw_speed=speeds)
     place = int(np.argmax(idle.flooded_torque / idle.screw_torque))
     assert record.value == pytest.approx(float(idle.flooded_torque[place]), rel=1e-6)
-
-
-@pytest.mark.slow
-def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up():
-    case = case_file.build(tables_of_duty("-5 degC"), moves=True)
-    cold = warmed_up(case_file.load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], moves=True))
-    of_warm_up = report_blocks.blocks(warm_up_sheet(cold), "warm_up")
-    for blocks in (report_blocks.blocks(sheet(duty(case)), "duty"), of_warm_up):
-        assert "in a full bath of oil" in blocks[0].text
-    steady = next(block for block in of_warm_up if getattr(block, "title", "") == "Steady state")
-    assert steady.columns == ("", "value", "in a full bath of oil")
-    assert {len(row) for row in steady.rows} == {3}

@@ -5,7 +5,6 @@ import importlib.util
 import json
 import math
 import tomllib
-from pathlib import Path
 
 import pytest
 
@@ -14,8 +13,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.torque_cards import torque_card
 from ballscrew.questions.validate import answer, compute
 from ballscrew.questions.validate.sheet import sheet
+from support.commands import ROOT
 
-EXAMPLE = Path(__file__).parents[2] / "examples" / "torque_cards" / "synthetic_40x10.toml"
+EXAMPLE = ROOT / "examples" / "torque_cards" / "synthetic_40x10.toml"
 TEXT = EXAMPLE.read_text(encoding="utf-8")
 
 

@@ -102,14 +102,6 @@ def test_interpreted_is_the_model(handed_over, preset, kind):
 
 
 @needs_the_library
-@pytest.mark.long
-def test_interpreted_oversize_balls_are_the_model(handed_over):
-    handed = handed_over(bs.FrictionModel.reference(), NUTS["oversize"](Bodies()))
-    points = handed.sample(40)
-    compare(interpreter.Interpreted(interpreter.program_file(handed)).at(points), handed.evaluate(points))
-
-
-@needs_the_library
 def test_a_cut_program_is_refused(handed_over):
     whole = interpreter.program_file(handed_over(bs.FrictionModel.olaru2005(), NUTS["double"](Bodies())))
     for length in range(0, len(whole), 97):

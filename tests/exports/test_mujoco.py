@@ -7,7 +7,6 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +14,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.exports import hand_over
+from support.commands import ROOT
 
 if importlib.util.find_spec("mujoco") is None:
     pytest.skip("mujoco is not installed: pip install mujoco-core", allow_module_level=True)
@@ -250,7 +250,7 @@ def test_the_walk_of_the_page(commands, example, tmp_path):
     ran = subprocess.run(
         [sys.executable, "run.py"], cwd=tmp_path / "z", capture_output=True, text=True, check=True, env={**os.environ}
     )
-    shown = Path(__file__).parents[2].joinpath("docs/howto/hand_over_robots.md").read_text(encoding="utf-8")
+    shown = ROOT.joinpath("docs/howto/hand_over_robots.md").read_text(encoding="utf-8")
     said = [line for line in ran.stdout.splitlines() if "takes" not in line]
     assert [line for line in said if line not in shown] == []
     assert "worst: plugin < 1e-9" in ran.stdout

@@ -3,12 +3,10 @@
 import csv
 import dataclasses
 import io
-import json
 import tomllib
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from ballscrew.cases.case_files import case_file
 
@@ -71,11 +69,6 @@ def text_of(data, **headings):
     for row in zip(*data.values(), strict=True):
         writer.writerow([x if isinstance(x, str) else "" if np.isnan(x) else repr(float(x)) for x in row])
     return out.getvalue()
-
-
-def document_of(done):
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
 
 
 def refused(done, words):

@@ -8,7 +8,6 @@ import re
 import subprocess
 import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import openpyxl
@@ -17,11 +16,8 @@ import xarray as xr
 
 import ballscrew as bs
 from ballscrew.faces.cli import main
-from ballscrew.physics.friction.balls import MECHANISMS
+from support.commands import ROOT
 
-ROOT = Path(__file__).parents[3]
-LEFT_OUT = "left out: seals, preload, return path, churning; not compared with measurements"
-REST = ("--set", "operation.screw_speed=0 rpm")
 PAPER = {
     "pitch_circle_diameter": 0.040, "lead": 0.005, "ball_diameter": 3.175e-3, "loaded_balls": 56,
     "contact_angle": math.pi / 4, "screw_conformity": 0.515, "nut_conformity": 0.515,
@@ -78,42 +74,6 @@ def test_no_load_is_legal_and_not_finite_is_null(example, ballscrew):
     assert "validity.skid" in {record["id"] for record in document["warnings"]}
 
 
-def test_tables_for_people(example, ballscrew):
-    process = ballscrew("run", example)
-    assert process.returncode == 0
-    for text in ("4000 N, 600 rpm", "0.1893 N m", "curvature slip", "█", "film thickness"):
-        assert text in process.stdout
-    locked = ballscrew("run", example, "--set", "operation.axial_load=10 N", "--set", "model.ball_to_ball_force=1 N")
-    assert "self-locking" in locked.stdout
-
-
-def test_the_reference_model_for_people(example, ballscrew):
-    """All mechanisms as bars, both directions, four quadrants, and how the contacts slip."""
-    text = ballscrew("run", example, "--model", "reference").stdout
-    r = paper_result(bs.FrictionModel.reference())
-    for mechanism, words in MECHANISMS.items():
-        part = f"{float(r.contributions[mechanism]):.4g} N m"
-        shown = any(line.startswith(f"  {words}") and part in line and "█" in line for line in text.splitlines())
-        assert shown or not r.contributions[mechanism]
-    assert f"back-drives: the load turns the screw; {float(r.holding_torque):.4g} N m on the shaft hold it" in text
-    rows = {line[2:28].strip(): line[28:].split() for line in text.splitlines()}
-    for name, quadrant in r.quadrants.items():
-        assert rows[name][:2] == ["+" if sign > 0 else "-" for sign in (quadrant.load_sign, quadrant.speed_sign)]
-        assert float(rows[name][2]) == pytest.approx(float(quadrant.shaft_torque), rel=1e-3)
-        assert float(rows[name][5]) == pytest.approx(float(quadrant.shaft_power), rel=1e-3)
-        assert float(rows[name][7]) == pytest.approx(float(quadrant.efficiency), rel=1e-3)
-    rest = bs.FrictionModel.reference()(r.ball_screw, bs.Lubricant(viscosity=0.1), axial_load=4000.0, screw_speed=0.0)
-    assert f"{float(rest.holding_torque):.4g} N m on the shaft hold it at rest" in text
-    assert LEFT_OUT in text.splitlines()
-    assert "screw pitch circle 40 mm, lead 5 mm, balls 3.175 mm, contact angle 45 deg, 56 loaded balls" in text
-    assert all(text.count(f"\n  {name}  ") == 1 for name in ("spin parameter E_s", "creep of the race", "lateral slip"))
-    assert f"{float(r.screw.spin_parameter):.4g}" in text
-    assert f"{1000 * float(r.nut.creep_speed):.4g} mm/s" in text
-    assert "lines of pure rolling" not in text
-    assert "skids" not in text
-    assert "\nwarning  " not in text
-
-
 def test_what_is_zero_is_left_out(example, ballscrew):
     text = ballscrew("run", example).stdout
     assert "spin slip" not in text
@@ -125,35 +85,6 @@ def test_what_is_zero_is_left_out(example, ballscrew):
     assert "locks" not in none
     assert "Where the friction" not in none
     assert not re.search(r"nan|inf\b| -0 ", none)
-
-
-def test_a_ball_that_skids_is_said(example, ballscrew):
-    text = ballscrew("run", example, "--model", "reference", "--set", "operation.axial_load=2 N").stdout
-    assert re.search(
-        r"^skids: friction carries only \d+\.\d% of what resists the rolling of a ball$", text, re.MULTILINE
-    )
-    assert "warning  skid: " in text
-    line = r"not self-locking: .*: it needs a brake; [\d.]+ N m on .* at this speed \(outside the model's validity\) "
-    assert re.search(line, " ".join(text.split()))
-    assert re.search(r"^back-drives: .* at rest$", text, re.MULTILINE)
-    lines = text.splitlines()
-    first = next(i for i, line in enumerate(lines) if line.startswith("warning"))
-    assert lines[first - 2].startswith("skids")
-    assert lines.index(LEFT_OUT) < next(i for i, line in enumerate(lines) if line.startswith("Where the friction"))
-    locked = [line for line in text.splitlines() if line.startswith("  is back-driven")]
-    assert len(locked) == 2
-    assert all(line.rstrip().endswith("locks") for line in locked)
-
-
-def test_at_rest(example, ballscrew):
-    text = ballscrew("run", example, "--model", "reference", "--set", "operation.screw_speed=0 rpm").stdout
-    assert text.count("on the shaft hold it at rest") == 1
-    imposed = ("--set", "model.ball_force=imposed", "--set", "model.ball_chain=two-neighbours")
-    two = ("--set", "operation.axial_load=2 N", *imposed)
-    light = ballscrew("run", example, "--model", "reference", *REST, *two).stdout
-    assert re.search(r"^at rest: friction carries only \d+\.\d% of what resists rolling$", light, re.MULTILINE)
-    assert "skid" not in light
-    assert not re.search(r"nan|inf\b| -0 ", text)
 
 
 def test_users_get_the_reference_model(example, tmp_path, ballscrew):
@@ -183,33 +114,6 @@ def test_every_example(path, tmp_path, ballscrew):
     assert uncommented != text
     document = json.loads(ballscrew("run", case, "--json").stdout)
     assert ", changed: " in document["provenance"]["model"]
-
-
-def test_efficiency_table_on_the_terminal(example, ballscrew):
-    process = ballscrew("sweep", example, "--vary", "axial_load=1000:4000:4 N", "--vary", "screw_speed=0, 300, 600 rpm")
-    rows = list(csv.reader(io.StringIO(process.stdout)))
-    assert rows[0] == ["efficiency: axial load [N] down; screw speed [rpm] across", "0.0", "300.0", "600.0"]
-    assert [row[0] for row in rows[1:]] == ["1000.0", "2000.0", "3000.0", "4000.0"]
-    assert float(rows[4][3]) == pytest.approx(float(paper_result(bs.FrictionModel.olaru2005()).efficiency), rel=1e-10)
-
-
-def test_one_row_a_point(example, ballscrew):
-    process = ballscrew(
-        "sweep",
-        example,
-        "--vary",
-        "axial_load=1,4 kN",
-        "--vary",
-        "friction.boundary_friction_coefficient=0.1,0.2",
-        "--output",
-        "screw_torque",
-        "--output",
-        "valid",
-    )
-    rows = list(csv.reader(io.StringIO(process.stdout)))
-    assert rows[0] == ["axial load [N]", "friction boundary friction coefficient", "screw torque [N m]", "valid"]
-    assert len(rows) == 5
-    assert float(rows[4][2]) == pytest.approx(float(paper_result(bs.FrictionModel.olaru2005()).screw_torque), rel=1e-10)
 
 
 def test_what_is_not_finite_is_an_empty_cell_and_what_is_not_valid_is_said(example, ballscrew):

@@ -41,12 +41,6 @@ def test_the_command_lists_by_word_and_as_json(ballscrew):
     assert [line.partition("  ")[0].strip() for line in shown.splitlines()] == listed
 
 
-def test_an_unknown_kind_is_refused(ballscrew):
-    done = ballscrew("list", "grade")
-    assert done.returncode == 2
-    assert done.stderr.strip() == 'list: unknown kind of names (grade) · did you mean "grades"?'
-
-
 def test_groups_have_headings():
     lines = text(names("laws")).splitlines()
     assert lines[0] == "frame:"

@@ -18,6 +18,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.questions.shared import every_row
 from ballscrew.questions.sweep import table
 from support.fit_logs import PAPER, TRUE_FRICTION, columns, text_of
+from support.processes import refused
 
 TABLE = """\
 name;d0 [mm];Ph [mm];Dw [mm];i;Ca [kN];Preload;Seals;D1 [mm];Nut;log
@@ -77,15 +78,6 @@ def torque(screw, load=4000.0):
 
 def read_csv(text):
     return list(csv.DictReader(io.StringIO(text)))
-
-
-def refused(process, *expected):
-    assert process.returncode == 2
-    assert process.stdout == ""
-    lines = process.stderr.strip().splitlines()
-    assert len(lines) == len(expected), process.stderr
-    for line, text in zip(lines, expected, strict=True):
-        assert text in line
 
 
 # -- a case and a row -----------------------------------------------------------------------------
@@ -159,33 +151,6 @@ def test_faulty_rows(ballscrew, place):
     (place / "own.csv").write_text(TABLE, encoding="utf-8")
     refused(ballscrew(*command), "C (own.csv row 4), nut.preload: missing")
     assert not (place / "out.csv").exists()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("options", "expected"),
-    [
-        (("run", "case.toml", "--row", "A"), "--row: needs a table of screws (A) · add --rows FILE"),
-        (("check", "--row", "A"), "--row: needs a table of screws (A)"),
-        (("check", "A", "--rows", "own.csv", "--row", "B"), "--row: is given beside another name (A)"),
-        (("run", "case.toml", "--rows", "own.csv", "--row", "Z"), "own.csv: unknown row (Z)"),
-        (("run", "case.toml", "--rows", "own.csv", "--band"), "--band: is of one screw (3 rows) · choose one: --row"),
-        (("run", "case.toml", "--rows", "own.csv", "--to", "a.png"), "--to: unknown kind of file (a.png)"),
-        (("run", "case.toml", "--rows", "own.csv", "--set", "nut.preloda=1"), "nut.preloda: unknown key"),
-        (("sweep", "case.toml", "--rows", "own.csv", "--to", "a.zarr"), "--to: holds one screw (a.zarr) · end it in"),
-        (("sweep", "case.toml", "--rows", "own.csv", "--verify"), "--verify: needs a store"),
-        (("sweep", "case.toml", "--rows", "own.csv", "--scheduler", "tcp://a:1"), "--scheduler: needs a store"),
-        (("fit", "--case", "case.toml"), "fit: needs a log · give a file, or --rows FILE with a column log"),
-        (("fit", "a.csv", "--case", "case.toml", "--rows", "own.csv"), "LOG: does not go with --rows (a.csv)"),
-        (
-            ("fit", "--case", "case.toml", "--rows", "own.csv", "--to", "a.toml"),
-            "end it in .csv or .xlsx, or give a fo",
-        ),
-        (("fit", "--case", "case.toml", "--rows", "own.csv"), 'own.csv: has no column "log" with a file'),
-    ],
-)
-def test_options_that_do_not_go_together(options, expected, ballscrew, place):
-    refused(ballscrew(*options), expected)
 
 
 # -- check ----------------------------------------------------------------------------------------

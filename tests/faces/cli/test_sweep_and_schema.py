@@ -4,14 +4,12 @@ import csv
 import io
 import json
 import tomllib
-from pathlib import Path
 
 import openpyxl
 import pytest
 
 import ballscrew as bs
-
-ROOT = Path(__file__).parents[3]
+from support.commands import ROOT
 
 
 def test_what_cannot_be_built_is_empty_and_said(tmp_path, ballscrew):

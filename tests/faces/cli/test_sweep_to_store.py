@@ -62,10 +62,6 @@ def test_damage_is_said_and_repaired(example, ballscrew, tmp_path):
     assert last.stderr.startswith(f"{path}: complete already, all checksums hold, nothing was computed\n")
 
 
-def test_options_of_a_store_need_one(example, ballscrew):
-    fault(ballscrew("sweep", example, "--to", "map.nc", "--verify"), "--verify: needs a store · add --to map.zarr")
-
-
 def test_the_memory_is_no_limit_of_a_store(example, tmp_path):
     case = case_file.load(example)
     vary = ["axial_load=10:4000:10000 N", "screw_speed=1:1000:10000 rpm"]
@@ -129,12 +125,6 @@ def test_a_full_disk_ends_with_words_and_1(example, ballscrew, tmp_path):
 
 
 # -- a cluster ------------------------------------------------------------------------------------
-
-
-def test_a_scheduler_needs_a_store(example, ballscrew):
-    for to in ((), ("--to", "map.nc")):
-        process = ballscrew("sweep", example, *to, "--scheduler", "tcp://127.0.0.1:8786")
-        fault(process, "--scheduler: needs a store (tcp://127.0.0.1:8786) · add --to map.zarr")
 
 
 @pytest.mark.slow

@@ -1,15 +1,14 @@
 """The curves of a report: what stands beside the torque where the screw is starved of oil."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.report.curve_figures import pictures
 from ballscrew.faces.report.curves import curves
+from support.commands import ROOT
 
-EXAMPLE = Path(__file__).parents[3] / "examples" / "feed_drive.toml"
+EXAMPLE = ROOT / "examples" / "feed_drive.toml"
 LABEL = "all, in a full bath of oil"
 
 

@@ -7,7 +7,6 @@ import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -24,8 +23,9 @@ from ballscrew.faces.report.drawing_section import BALL, RADIUS
 from ballscrew.questions.run.compute import run
 from oracles.contact_integral import contact_integral
 from oracles.tractions import Coulomb
+from support.commands import ROOT
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 _NS = "{http://www.w3.org/2000/svg}"
 _OVERSIZE = ('nut.type="oversize-balls"', 'nut.preload="2 kN"')
 

@@ -10,8 +10,9 @@ import os
 import re
 import signal
 import tempfile
+import threading
 import tomllib
-from collections.abc import Coroutine, Iterator, Sequence
+from collections.abc import Callable, Coroutine, Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -20,10 +21,10 @@ import psutil
 import pytest
 from playwright.sync_api import ConsoleMessage, Error, Page, Request
 
+from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.faces.web.server import application
-from support.commands import Commands
+from support.commands import ROOT, Commands
 
-ROOT = Path(__file__).parents[3]
 #: A warning of NumPy in the server is a defect: nobody would see it.
 ERRORS = ["RuntimeWarning"]
 #: Seconds of one request: longer than any takes, also on a busy machine.
@@ -103,6 +104,39 @@ def run_scene(scene: Coroutine[Any, Any, Any]) -> Any:
     """Run in a thread of its own: an open browser keeps a loop running in the main thread of this process."""
     with concurrent.futures.ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, asyncio.wait_for(scene, TIME_LIMIT)).result()
+
+
+def ask_and_leave(
+    address: str,
+    case: dict[str, Any],
+    left: threading.Event,
+    stopped: threading.Event,
+    heard: Callable[[dict[str, Any]], None] = lambda message: None,
+) -> None:
+    """Ask the application as a server does, leave when an event says so, and wait until the work has stopped."""
+    path = f"/api/v1/{address}"
+    scope = {
+        "type": "http", "asgi": {"version": "3.0"}, "http_version": "1.1", "method": "POST", "scheme": "http",
+        "path": path, "raw_path": path.encode(), "query_string": b"", "root_path": "",
+        "headers": [(b"host", b"localhost"), (b"content-type", b"application/json")],
+    }  # fmt: skip
+    messages = [{"type": "http.request", "body": json.dumps({"case": case}).encode(), "more_body": False}]
+
+    async def receive() -> dict[str, Any]:
+        if messages:
+            return messages.pop()
+        await asyncio.to_thread(left.wait, TIME_LIMIT)
+        return {"type": "http.disconnect"}
+
+    async def send(message: dict[str, Any]) -> None:
+        heard(message)
+
+    async def scene() -> None:
+        asked = application(requests=RequestQueue(time_limit=TIME_LIMIT))
+        await asyncio.wait_for(asked(scope, receive, send), TIME_LIMIT / 2)
+        assert await asyncio.to_thread(stopped.wait, TIME_LIMIT / 2)
+
+    run_scene(scene())
 
 
 @contextlib.contextmanager

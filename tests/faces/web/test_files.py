@@ -3,13 +3,11 @@
 import base64
 import json
 import tomllib
-from pathlib import Path
 
 import pytest
 
 from ballscrew.cases.case_files import project
-
-ROOT = Path(__file__).parents[3]
+from support.commands import ROOT
 
 
 def opened(server, name, content):

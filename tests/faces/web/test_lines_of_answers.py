@@ -1,24 +1,23 @@
 """All answers about a case in one request: those of the addresses, line by line, of a case that is built once."""
 
-import asyncio
 import json
 import threading
 import tomllib
-from pathlib import Path
 
 import pytest
 
 from ballscrew.cases.case_files import case_file
-from ballscrew.faces.web import bodies, documents, server
+from ballscrew.faces.web import bodies, documents
 from ballscrew.faces.web.bodies import case_of
 from ballscrew.faces.web.request_queue import OUT_OF_TIME, RequestQueue
 from ballscrew.questions.curves import curves
 from ballscrew.questions.run import compute
+from support.commands import ROOT
 from support.documents import assert_same
 
-from .conftest import asking, run_scene
+from .conftest import ask_and_leave, asking
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 #: Seconds of a request, also on a busy machine.
 LONG = 600
 
@@ -117,33 +116,14 @@ def test_numbers_are_sent_before_the_charts_are_computed(monkeypatch, paper):
             stopped.set()
 
     monkeypatch.setattr("ballscrew.faces.web.answers_api.sweeps.sweep", endless)
-    body = json.dumps({"case": paper}).encode()
-    scope = {
-        "type": "http", "asgi": {"version": "3.0"}, "http_version": "1.1", "method": "POST", "scheme": "http",
-        "path": "/api/v1/answers", "raw_path": b"/api/v1/answers", "query_string": b"", "root_path": "",
-        "headers": [(b"host", b"localhost"), (b"content-type", b"application/json")],
-    }  # fmt: skip
     lines = []
 
-    async def scene():
-        application = server.application(requests=RequestQueue(time_limit=LONG))
-        messages = [{"type": "http.request", "body": body, "more_body": False}]
+    def heard(message):
+        lines.extend(message.get("body", b"").splitlines())
+        if len(lines) == 2:
+            sent.set()
 
-        async def receive():
-            if messages:
-                return messages.pop()
-            await asyncio.to_thread(sent.wait, LONG)
-            return {"type": "http.disconnect"}
-
-        async def send(message):
-            lines.extend(message.get("body", b"").splitlines())
-            if len(lines) == 2:
-                sent.set()
-
-        await asyncio.wait_for(application(scope, receive, send), LONG / 2)
-        assert await asyncio.to_thread(stopped.wait, LONG / 2)
-
-    run_scene(scene())
+    ask_and_leave("answers", paper, sent, stopped, heard)
     assert [json.loads(line)["question"] for line in lines] == ["run", "check"]
 
 

@@ -4,7 +4,6 @@ import concurrent.futures
 import importlib.util
 import io
 import sys
-from pathlib import Path
 
 import psutil
 import pytest
@@ -13,10 +12,11 @@ from pypdf import PdfReader
 from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.faces.sheets.report_blocks import Report
 from ballscrew.faces.web import limits
+from support.commands import ROOT
 
 pytestmark = pytest.mark.slow
 
-SCRIPT = Path(__file__).parents[3] / "benchmarks" / "serve.py"
+SCRIPT = ROOT / "benchmarks" / "serve.py"
 
 
 @pytest.fixture(scope="module")

@@ -3,11 +3,11 @@
 import base64
 import tempfile
 import tomllib
-from pathlib import Path
 
 import pytest
 
 from ballscrew.faces.web.request_queue import RequestQueue
+from support.commands import ROOT
 from support.documents import assert_same
 
 from .conftest import asking
@@ -15,7 +15,7 @@ from .test_equal_to_commands import document, written
 
 pytestmark = pytest.mark.slow
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""The cards of balls in motion: asked by their buttons, with their charts and tables."""
+"""The cards of balls in motion: asked by their buttons, with their charts, and refused below them."""
 
 import pytest
 
@@ -8,83 +8,60 @@ from .test_page_duty import answered, case_of
 
 pytestmark = pytest.mark.slow
 
+#: By card: its page, an edit of the case, an option and what is sent of it, titles of its charts, and what is refused.
+CARDS = {
+    "reversal": (
+        "#A=paper&A.operation.screw_speed=6+rpm&band=0&view=nut.reversal",
+        ("operation.axial_load", "2 kN"),
+        ("gap", "0.25", 0.25),
+        [["angle of the screw (\u00b0)", "friction torque (N\u00b7m)"]],
+        ("travel", "-1 mm", "must be positive", "50 um"),
+    ),
+    "ripple": (
+        "#A=hiwin-40-20k4&band=0&view=nut.ripple",
+        ("screw.loaded_balls", "20"),
+        ("turns", "6", 6),
+        [["turns of the screw", "torque (N\u00b7m)"], ["order, per turn of the screw", "amplitude (N\u00b7mm)"]],
+        ("fault", "rust", "rust", "missing-ball"),
+    ),
+}
+TITLES = "({ drawn: { figure: { x, y } } }) => [x.title, y.title]"
 
-def test_a_reversal_is_asked_for_and_refused(visit, server):
+
+@pytest.mark.parametrize("name", CARDS)
+def test_a_card_is_asked_by_its_button_and_refused_below_it(visit, server, name):
+    address, edit, (option, typed, sent), titles, (field, wrong, said, right) = CARDS[name]
     here = visit()
     here.expected = ("status of 422",)
     asked = []
-    here.page.on("request", lambda one: asked.append(one) if one.url.endswith("/jobs/reversal") else None)
-    here.open("#A=paper&A.operation.screw_speed=6+rpm&band=0&view=nut.reversal")
-    page = here.page
-    page.wait_for_selector("#reversal-start")
-    assert "This is a hypothesis" in here.text("#reversal")
-    here.type("operation.axial_load", "2 kN")
+    here.page.on("request", lambda one: asked.append(one) if one.url.endswith(f"/jobs/{name}") else None)
+    page = here.open(address).page
+    page.wait_for_selector(f"#{name}-start")
+    assert "This is a hypothesis" in here.text(f"#{name}")
+    here.type(*edit)
     assert asked == []  # it takes seconds: no key asks for it
-    page.locator("#reversal-start").click()
-    page.wait_for_selector("#reversal .sheet table")
-    answer = server.post("reversal", {"case": case_of(here)}).json()
-    shows(here, "reversal", answer["sheet"])
-    # the chart has the parts that there are, and all of them as numbers
-    curves = next(block for block in answer["sheet"]["blocks"] if block["kind"] == "chart")
-    chart = page.locator("#reversal .sheet .chart").first
-    plot = drawn(here, chart.get_attribute("id"))
-    assert chart.locator("ul.legend li").count() == len([one for one in curves["marks"] if one["name"]])
-    axes = plot.evaluate("({ drawn: { figure: { x, y } } }) => [x.log, x.title, y.title]")
-    assert axes == [True, "angle of the screw (\u00b0)", "friction torque (N\u00b7m)"]
-    chart.locator("details summary").click()
-    page.wait_for_selector("#reversal .sheet .chart tbody tr")
-    assert chart.locator("tbody tr").count() == len(curves["marks"][0]["x"])
-    # a travel that is none stands below the button, the answer above stays
-    page.locator("#reversal details.card-fields > summary").click()
-    page.locator("#reversal-travel").fill("-1 mm")
-    page.wait_for_selector("#reversal code:has-text('--travel')")
-    assert "of the previous input" in here.text("#reversal .card-line")
-    page.locator("#reversal-start").click()
-    page.wait_for_selector("#reversal .fault:has-text('must be positive')")
-    page.locator("#reversal-travel").fill("50 um")
-    page.locator("#reversal-start").click()
-    page.wait_for_function("() => document.querySelector('#reversal .fault') === null")
-    page.wait_for_selector("#reversal .verdict:has-text('less than')")
-    answered(here, "reversal")
-    # a model that has no slip across the path
-    here.open("#A=paper&A.operation.screw_speed=6+rpm&A.model.name=olaru2005&band=0&view=nut.reversal")
-    page.locator("#reversal-start").click()
-    page.wait_for_selector("#reversal .fault:has-text('knows no slip across the path')")
-    assert violations(here) == []
-
-
-def test_a_ripple_with_a_fault(visit, server):
-    here = visit()
-    here.expected = ("status of 422",)
-    asked = []
-    here.page.on("request", lambda one: asked.append(one) if one.url.endswith("/jobs/ripple") else None)
-    here.open("#A=hiwin-40-20k4&band=0&view=nut.ripple")
-    page = here.page
-    page.wait_for_selector("#ripple-start")
-    assert "This is a hypothesis" in here.text("#ripple")
-    here.type("screw.loaded_balls", "20")
-    assert asked == []
-    page.locator("#ripple details.card-fields > summary").click()
-    page.locator("#ripple-turns").fill("6")
-    page.locator("#ripple-start").click()
-    page.wait_for_selector("#ripple .sheet table")
-    body = {"case": case_of(here), "turns": 6}
-    shows(here, "ripple", server.post("ripple", body).json()["sheet"])
-    axes = "({ drawn: { figure: { x, y } } }) => [y.log, x.title, y.title]"
-    found = [
-        drawn(here, chart.get_attribute("id")).evaluate(axes) for chart in page.locator("#ripple .sheet .chart").all()
-    ]
-    assert found == [
-        [False, "turns of the screw", "torque (N\u00b7m)"],
-        [True, "order, per turn of the screw", "amplitude (N\u00b7mm)"],
-    ]
-    # a fault that there is not, and one that there is
-    page.locator("#ripple-fault").fill("rust")
-    page.locator("#ripple-start").click()
-    page.wait_for_selector("#ripple .fault:has-text('rust')")
-    page.locator("#ripple-fault").fill("missing-ball")
-    page.wait_for_selector("#ripple code:has-text('--fault missing-ball')")
-    page.locator("#ripple-start").click()
-    page.wait_for_selector("#ripple .sheet tr:has-text('missing-ball')")
-    shows(here, "ripple", server.post("ripple", {**body, "fault": ["missing-ball"]}).json()["sheet"])
+    page.locator(f"#{name} details.card-fields > summary").click()
+    page.locator(f"#{name}-{option}").fill(typed)
+    page.locator(f"#{name}-start").click()
+    page.wait_for_selector(f"#{name} .sheet table")
+    answer = server.post(name, {"case": case_of(here), option: sent}).json()
+    shows(here, name, answer["sheet"])
+    charts = page.locator(f"#{name} .sheet .chart").all()
+    found = [drawn(here, chart.get_attribute("id")).evaluate(TITLES) for chart in charts]
+    assert found[: len(titles)] == titles
+    # the first chart has the curves that there are, and all of them as numbers
+    curves = next(block for block in answer["sheet"]["blocks"] if block["kind"] == "chart")["marks"]
+    assert charts[0].locator("ul.legend li").count() == len([one for one in curves if one["name"]])
+    charts[0].locator("details summary").click()
+    page.wait_for_selector(f"#{name} .sheet .chart tbody tr")
+    # what is refused stands below the button, and the answer above stays
+    page.locator(f"#{name}-{field}").fill(wrong)
+    page.wait_for_selector(f"#{name} code:has-text('--{field}')")
+    assert "of the previous input" in here.text(f"#{name} .card-line")
+    page.locator(f"#{name}-start").click()
+    page.wait_for_selector(f"#{name} .fault:has-text('{said}')")
+    page.locator(f"#{name}-{field}").fill(right)
+    page.locator(f"#{name}-start").click()
+    page.wait_for_function(f"() => document.querySelector('#{name} .fault') === null")
+    answered(here, name)
     assert violations(here) == []

@@ -1,14 +1,14 @@
 """The card of a nut of one's own: few numbers in, estimates with their bands beneath, and a design of them."""
 
-from pathlib import Path
-
 import pytest
+
+from support.commands import ROOT
 
 from .test_page_duty import case_of
 
 pytestmark = pytest.mark.slow
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 #: A preloaded nut of elastic bodies, where its preload is asked for.
 ELASTIC = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.bodies.same_side=true&band=0&view=measure.service"
 #: Contrast of the words of an element and its ground, by WCAG 2.

@@ -1,7 +1,6 @@
 """Time limits and the queue, with small limits."""
 
 import asyncio
-import json
 import subprocess
 import sys
 import threading
@@ -9,11 +8,11 @@ import time
 
 import pytest
 
-from ballscrew.faces.web import api, server
+from ballscrew.faces.web import api
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import RequestQueue
 
-from .conftest import asking, run_scene
+from .conftest import ask_and_leave, asking, run_scene
 
 #: Longer than any test takes, also on a busy machine.
 LONG = 600
@@ -217,30 +216,7 @@ def test_a_disconnect_stops_the_work(monkeypatch, paper):
             stopped.set()
 
     monkeypatch.setattr(api.compute, "band", endless)
-    body = json.dumps({"case": paper}).encode()
-    scope = {
-        "type": "http", "asgi": {"version": "3.0"}, "http_version": "1.1", "method": "POST", "scheme": "http",
-        "path": "/api/v1/band", "raw_path": b"/api/v1/band", "query_string": b"", "root_path": "",
-        "headers": [(b"host", b"localhost"), (b"content-type", b"application/json")],
-    }  # fmt: skip
-
-    async def scene():
-        application = server.application(requests=RequestQueue(time_limit=LONG))
-        messages = [{"type": "http.request", "body": body, "more_body": False}]
-
-        async def receive():
-            if messages:
-                return messages.pop()
-            await asyncio.to_thread(begun.wait, LONG)
-            return {"type": "http.disconnect"}
-
-        async def send(message):
-            pass
-
-        await asyncio.wait_for(application(scope, receive, send), LONG / 2)
-        assert await asyncio.to_thread(stopped.wait, LONG / 2)
-
-    run_scene(scene())
+    ask_and_leave("band", paper, begun, stopped)
 
 
 def test_the_samples_of_a_sweep_are_refused_before_it_waits(paper):

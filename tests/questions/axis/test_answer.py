@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 
 from ballscrew.basis.output.sheet import Columns, Table
-from ballscrew.questions import responses
-from ballscrew.questions.axis.answer import FRICTION, LOAD, SERIES, SPEED, ChainResults, chain_of, document, sheet
+from ballscrew.questions.axis.answer import SERIES, ChainResults, chain_of, document, sheet
 from ballscrew.questions.shared import schemas
-from support.answers import without_unit
 from support.axis_cases import load
 from support.commands import ROOT
 
@@ -37,17 +35,3 @@ def test_every_number_at_a_place_is_on_every_face(report):
         assert described["x-si-unit"] == of_place[name]["x-si-unit"] == quantity.unit
         assert described["description"].startswith(quantity.info.meaning)
         assert name in shown or not np.isfinite(report.series[name]).any()
-
-
-def test_the_numbers_of_the_motion_have_units(report):
-    answer, schema = document(report), schemas.schema(ChainResults).model_json_schema()["properties"]
-    for quantity in (LOAD, SPEED, FRICTION):
-        assert answer["results"][quantity.name] == getattr(report, quantity.name)
-        assert answer["units"][quantity.name] == quantity.unit == schema[quantity.name]["x-si-unit"]
-    assert list(without_unit(answer["results"], answer["units"])) == []
-
-
-@pytest.mark.parametrize("example", ["feed_axis.toml", "catalogue_screw.toml"])
-def test_answers_are_valid_by_their_schema(example):
-    found = document(chain_of(load(EXAMPLES / example, [])))
-    responses.OF_QUESTIONS["axis"].model_validate({**found, "sheet": {}})

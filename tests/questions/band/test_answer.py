@@ -37,6 +37,13 @@ def test_a_band_is_valid_by_its_schema(answer):
     assert any(answer["band"]["laws"].values())
 
 
+def test_a_band_stands_beside_the_answer_of_the_run(answer):
+    """Which it leaves as it is; its verdicts come after those of the run."""
+    alone = plain(document(run(case_file.load(ROOT / "examples" / "olaru2005.toml"))))
+    assert answer["results"] == alone["results"]
+    assert answer["verdicts"][: len(alone["verdicts"])] == alone["verdicts"]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("preload", ["4326 N", "40 N"])
 def test_without_load_each_rule_is_within_the_band_or_not(preload):

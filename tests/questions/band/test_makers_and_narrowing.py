@@ -10,11 +10,8 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.bands import _without  # of a linear model, which no screw is
 from ballscrew.physics.components.nut import Nut
 from ballscrew.questions.band import BandOptions, answer, compute
+from support.own_screws import SCREW as OWN
 
-OWN = {
-    "pitch_circle_diameter": "41.4 mm", "lead": "10 mm", "ball_diameter": "6.35 mm", "loaded_balls": 75,
-    "contact_angle": "45 deg", "screw_conformity": 0.54, "nut_conformity": 0.54,
-}  # fmt: skip
 DOUBLE = {"type": "double", "preload": "3 kN"}
 OVERSIZE = {"type": "oversize-balls", "preload": "3 kN"}
 

@@ -15,8 +15,9 @@ from ballscrew.physics.sizing.checks import judged as number_judged
 from ballscrew.physics.sizing.judged import JUDGED, documents, judged
 from ballscrew.questions.check.answer import checked
 from ballscrew.questions.run.compute import run
+from support.commands import ROOT
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 SOURCE = Path(ballscrew.__file__).parent
 TABLES = documents()
 ROWS = {row["id"]: row for name in ("verdicts", "warnings", "checks") for row in TABLES[name]}

@@ -8,7 +8,6 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.physics.laws.ball_chain import ChainBallForce
@@ -23,7 +22,6 @@ from ballscrew.physics.moving_balls.ripple import (
 )
 from ballscrew.questions.ripple import RippleOptions
 from ballscrew.questions.ripple.answer import ALL, defects_of, document, given_of, ripple_of, sheet
-from support.answers import without_unit
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "service.toml"
@@ -74,12 +72,6 @@ def test_a_range_is_that_of_nuts_of_other_seeds(case, report):
     assert (alone["range"], alone["faults"]) == (None, [])
 
 
-def test_every_number_has_a_unit(report):
-    found = document(report)
-    assert list(without_unit(found["results"], found["units"])) == []
-    assert found["units"]["peak_to_peak"] == "N m"
-
-
 def test_words_say_what_torque_shows(report):
     said = " ".join(terminal.text(sheet(report)).split())
     verdicts = {one["id"]: one for one in document(report)["verdicts"]}
@@ -89,27 +81,6 @@ def test_words_say_what_torque_shows(report):
     assert "spall=2 mm x 2 um: torque is a poor sensor of it" in said
     assert "ball pass" in said
     assert "no catalogue has them" in said
-
-
-def test_the_sheet_has_the_numbers_of_the_document(report):
-    results = document(report)["results"]
-    sizes, nuts, orders = sheet(report).of_kind(Table)
-    named = ("mean", "peak_to_peak", "relative", "deviation", "share")
-    for row, result in zip(sizes.rows, [results, *results["faults"]], strict=True):
-        assert [cell.value for cell in row[1:]] == [result[name] for name in named]
-    assert [row[0] for row in sizes.rows[1:]] == [fault["fault"] for fault in results["faults"]]
-    assert nuts.rows[0][1].value == results["range"]["median"]
-    assert nuts.rows[0][1].band == (results["range"]["low"], results["range"]["high"])
-    for index, row in enumerate(orders.rows):
-        amplitudes = [result["orders"][index]["amplitude"] for result in (results, *results["faults"])]
-        assert [cell.value for cell in row[2:]] == amplitudes
-        assert (row[0], row[1].value) == (results["orders"][index]["name"], results["orders"][index]["order"])
-    curves, spectra = sheet(report).of_kind(Columns)
-    for block, name in ((curves, "torque"), (spectra, "spectrum")):
-        nut, x, y = (np.array(column.values) for column in block.columns)
-        assert x[nut == "as it is"].tolist() == results[name]["x"]
-        assert y[nut == "as it is"].tolist() == results[name]["y"]
-        assert set(nut) == {"as it is", *report.faults}
 
 
 @pytest.mark.slow

@@ -5,13 +5,11 @@ import pytest
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
-from ballscrew.questions.responses import Document
 from ballscrew.questions.run import compute
 from ballscrew.questions.run.answer import RunResults, document
 from ballscrew.questions.run.compute import OF_ONE_BALL
 from ballscrew.questions.run.sheet import SHOWN, meaning, sheet
 from ballscrew.questions.shared import schemas
-from support.answers import without_unit
 from support.commands import ROOT
 
 CASES = {
@@ -50,15 +48,3 @@ def test_the_first_numbers_are_on_the_terminal(found):
     for name in SHOWN:
         if name in found.quantities and (is_loaded or name != "holding_torque"):
             assert meaning(name) in words
-
-
-def test_a_document_is_valid_by_its_schema(found):
-    Document.model_validate(plain(document(found)))
-
-
-def test_every_number_has_a_unit(found):
-    answer = plain(document(found))
-    signs = {
-        f"quadrants.{name}.{sign}" for name in answer["results"]["quadrants"] for sign in ("load_sign", "speed_sign")
-    }
-    assert set(without_unit(answer["results"], answer["units"])) <= signs

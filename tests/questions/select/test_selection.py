@@ -301,37 +301,6 @@ def test_what_is_assumed_is_said():
 
 
 @pytest.mark.slow
-def test_a_vertical_axis_lists_its_motor_and_its_brake(ballscrew, tmp_path):
-    """What is needed of motor and brake stands in all forms of the list; a preload that is lost never holds."""
-    need, table = tmp_path / "need.toml", tmp_path / "list.csv"
-    lines = [f"{key} = {json.dumps(value)}\n" for key, value in {**MOVING, "preload": "2 %"}.items()]
-    need.write_text("".join(lines), encoding="utf-8")
-    done = ballscrew("select", need, "--complete", "--json", "--to", table)
-    document = json.loads(done.stdout)
-    assert document["holding"] == 0
-    mine = document["candidates"][0]
-    assert [one["name"] for one in mine["fails"]] == ["preload"]
-    assert mine["holds"] is False
-    assert mine["brake"]["falls"]
-    assert 0 < mine["brake"]["holding_torque"] < mine["brake"]["load_torque"] == mine["brake"]["brake_torque"] / 2
-    assert document["units"]["brake"]["holding_torque"] == document["units"]["duty"]["torque_peak"] == "N m"
-    with table.open(encoding="utf-8") as stream:
-        row = next(csv.DictReader(stream))
-    for heading, number in (
-        ("motor torque peak [N m]", mine["motor_torque"]["torque_peak"]),
-        ("motor torque rms [N m]", mine["motor_torque"]["torque_rms"]),
-        ("brake holding torque [N m]", mine["brake"]["holding_torque"]),
-    ):
-        assert float(row[heading]) == pytest.approx(number, rel=1e-9)
-    lines = ballscrew("select", need, "--complete").stdout.splitlines()
-    place = next(number for number, line in enumerate(lines) if line.startswith("candidate "))
-    assert "motor, largest" in lines[place]
-    assert "motor, RMS" in lines[place]
-    assert "brake holds" in lines[place]
-    assert lines[place + 1].count("N m") == 3
-
-
-@pytest.mark.slow
 def test_the_motor_of_a_starved_cycle_is_listed_by_the_larger_torque(ballscrew, tmp_path):
     """Largest and RMS torque are those in a full bath of cold oil, in all forms of the list."""
     need, table = tmp_path / "need.toml", tmp_path / "list.csv"

@@ -62,7 +62,3 @@ def test_a_paper_by_the_command(ballscrew, tmp_path):
     text = (tmp_path / "worth.html").read_text(encoding="utf-8")
     assert "What friction models of ball screws are worth" in text
     assert "BNFN4010-5" in text
-    wrong = ballscrew("validate", "thk-jis", "--report", tmp_path / "worth.txt")
-    assert wrong.returncode == 2
-    assert "--report: unknown kind of file" in wrong.stderr
-    assert not (tmp_path / "worth.txt").exists()

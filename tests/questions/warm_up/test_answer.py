@@ -1,22 +1,17 @@
 """The answer of warming up: declared once, and the same on every face."""
 
 import dataclasses
-import math
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from ballscrew.basis.output.sheet import Chart, Columns, Table
+from ballscrew.basis.output.sheet import Chart
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions import responses
-from ballscrew.questions.shared import schemas
 from ballscrew.questions.warm_up import compute, verdicts
-from ballscrew.questions.warm_up.answer import WarmUpResults, document
-from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, warmed_up
+from ballscrew.questions.warm_up.compute import warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
 from ballscrew.questions.warm_up.sheet import sheet
-from support.answers import without_unit
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "warm_up.toml"
@@ -28,59 +23,12 @@ def report():
     return warmed_up(case_file.load(EXAMPLE, [], moves=True), hours=1.0, cool_down=1.0)
 
 
-def test_every_number_over_time_is_on_every_face(report):
-    """A number is one field: nothing else has to name it."""
-    answer, schema = document(report), schemas.schema(WarmUpResults).model_json_schema()["properties"]
-    (series,) = (block for block in sheet(report).of_kind(Columns) if block.name == "over time")
-    columns = {column.name: column.values for column in series.columns}
-    for name, quantity in SERIES.items():
-        meaning = quantity.info.meaning
-        assert np.array_equal(columns[meaning], report.series[name])
-        part, _, heat = name.partition("_") if name.startswith("heat_") else (name, "", "")
-        results, unit = answer["results"][part], answer["units"][part]
-        if heat:
-            assert math.isfinite(results[heat])
-            assert unit[heat] == quantity.unit
-        else:
-            assert len(results) == len(report.warm_up.time)
-            assert unit == quantity.unit == schema[name].get("x-si-unit", "1")
-            assert schema[name]["description"].startswith(meaning)
-
-
-def test_every_number_of_the_steady_state_is_on_every_face(report):
-    answer, schema = document(report), schemas.schema(WarmUpResults).model_json_schema()
-    described = schema["$defs"]["Equilibrium"]["properties"]
-    (steady,) = (block for block in sheet(report).of_kind(Table) if block.name == "steady state")
-    rows = {row[0]: row[1].value for row in steady.rows}
-    for name, quantity in EQUILIBRIUM.items():
-        meaning = quantity.info.meaning
-        assert math.isfinite(answer["results"]["equilibrium"][name])
-        assert answer["units"]["equilibrium"][name] == quantity.unit == described[name]["x-si-unit"]
-        assert described[name]["description"].startswith(meaning)
-        assert rows[meaning] == answer["results"]["equilibrium"][name]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
-def test_answers_are_valid_by_their_schema(settings, starved):
-    report = warmed_up(case_file.load(EXAMPLE, settings, moves=True), hours=0.5)
-    found = document(report)
-    responses.OF_QUESTIONS["warm-up"].model_validate({**found, "sheet": {}})
-    assert (found["results"]["full_bath"] is not None) == starved
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
 def test_a_full_bath_is_drawn_where_oil_comes_back_late(settings, starved):
     charts = sheet(warmed_up(case_file.load(EXAMPLE, settings, moves=True), hours=0.5)).of_kind(Chart)
     curves = {mark.name for chart in charts for mark in chart.marks}
     assert ("in a full bath of oil" in curves) == starved
-
-
-@pytest.mark.slow
-def test_every_number_has_a_unit(report):
-    found = document(report)
-    assert list(without_unit(found["results"], found["units"])) == []
 
 
 def test_self_heating_has_units():

@@ -1,44 +1,34 @@
 """``ballscrew compare``: all models and laws on one case, as table, JSON and picture."""
 
-import dataclasses
-import json
 import math
 import re
-import subprocess
-import sys
 
 import pytest
 
-from ballscrew.basis.output.sheet import Bars, Table
-from ballscrew.basis.output.text import WIDTH
+from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema import case_schema
 from ballscrew.engine.evaluation.comparison import same_law
-from ballscrew.faces.sheets import files, terminal
+from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import LAWS, presets
 from ballscrew.questions.compare import compute
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import charts
-from support.commands import with_small_files
-from support.pictures import drawn, words_of
+from support.commands import ROOT
+from support.pictures import words_of
+from support.processes import document_of
 
 
 @pytest.fixture(scope="module")
 def paper():
-    from pathlib import Path
 
-    return case_file.load(Path(__file__).parents[3] / "examples" / "olaru2005.toml", model="reference")
+    return case_file.load(ROOT / "examples" / "olaru2005.toml", model="reference")
 
 
 @pytest.fixture(scope="module")
 def found(paper):
     return compute.comparison(paper)
-
-
-def document_of(process):
-    assert process.returncode == 0, process.stderr
-    return json.loads(process.stdout)
 
 
 # -- what is compared -----------------------------------------------------------------------------
@@ -148,17 +138,6 @@ def rows_of(text):
     return {line.split()[0]: line.split() for line in table.splitlines() if line.startswith("    ")}
 
 
-@pytest.mark.parametrize("load", ["4 kN", "20 N", "0 N", "100 kN"])
-def test_the_table_is_readable(load, example, ballscrew):
-    process = ballscrew("compare", example, "--model", "reference", "--set", f"operation.axial_load={load}")
-    assert process.returncode == 0
-    assert process.stderr == ""
-    assert max(map(len, process.stdout.splitlines())) <= WIDTH
-    assert not re.search("nan|inf ", process.stdout)
-    for slot in LAWS:
-        assert f"\n  {slot.replace('_', ' ')}, in place of " in process.stdout
-
-
 def test_the_table_holds_the_numbers(paper, found):
     text = terminal.text(sheet(paper, found))
     table = next(block for block in sheet(paper, found).of_kind(Table) if block.name == "models")
@@ -173,28 +152,6 @@ def test_the_table_holds_the_numbers(paper, found):
     assert sum(parts) == pytest.approx(corrected.torque, rel=3e-3)
     efficiencies = corrected.result.efficiency, corrected.result.back_driving_efficiency
     assert rows["corrected"][-2:] == [f"{float(efficiency):.4g}" for efficiency in efficiencies]
-
-
-def test_the_spread_in_words(paper, found):
-    text = terminal.text(sheet(paper, found))
-    least, greatest = found.spread_of_models
-    assert f"models: {least.torque:.4g} N m (olaru2005-literal) to {greatest.torque:.4g} N m (reference)" in text
-    assert "valid laws: " in text
-    assert "matters most: " in text
-    assert "coefficients are not varied here" in text
-    assert "full film, in place of constant" in text
-    assert text.count("†") == 4  # three of the paper's own forms, and what that means
-    assert "known to be incomplete or misprinted" in text
-
-
-def test_where_it_is_not_valid_is_said(example, ballscrew):
-    text = ballscrew("compare", example, "--model", "reference", "--set", "operation.axial_load=10 N").stdout
-    text = " ".join(text.split())
-    assert "not valid here: olaru2005, olaru2005-literal, corrected, reference" in text
-    assert "none is valid here" in text
-    assert "warning skid: " in text
-    assert re.search("warning elastic_regime: .*, everywhere", text)
-    assert " locks " in text
 
 
 def test_rules_of_one_line_stand_beside_the_models(example, found, ballscrew):
@@ -227,44 +184,6 @@ def test_picture(example, found, tmp_path, ballscrew):
     assert document_of(again)["case"]["name"] == "reference"
     assert again.stderr.startswith(f"{path}: ")
     assert path.read_bytes() == first
-
-
-@pytest.mark.slow
-def test_a_full_disk_leaves_the_old_picture(example, tmp_path):
-    """A limit on the size of files stands for the disk."""
-    target = tmp_path / "spread.png"
-    target.write_text("old", encoding="utf-8")
-    program = [sys.executable, "-m", "ballscrew.faces.cli", "compare", str(example), "--to", str(target)]
-    process = subprocess.run(with_small_files(program), capture_output=True, text=True, check=False)
-    assert process.returncode == 2
-    assert process.stderr.strip().splitlines()[-1].startswith("--to: cannot be written")
-    assert target.read_text(encoding="utf-8") == "old"
-    assert list(tmp_path.iterdir()) == [target]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("load", [4000.0, 2.0, 0.0])
-def test_what_a_picture_says(load, paper, tmp_path):
-    case = dataclasses.replace(paper, operation=dataclasses.replace(paper.operation, axial_load=load))
-    found = compute.comparison(case)
-    seen = sheet(case, found)
-    files.write(tmp_path / "spread.svg", seen)
-    shown = drawn(tmp_path / "spread.svg")
-    for words in (
-        f"{load:.4g} N, 600 rpm, model reference",
-        "models as they are",
-        *presets(),
-        "56 loaded balls",
-        "226.4 GPa",
-    ):
-        assert words in shown.text
-    (bars,) = seen.of_kind(Bars)
-    rows = [bar for bar in bars.bars if bar.parts]
-    by_slot = [row for slot in LAWS for row in found.laws if row.candidate.slot == slot]
-    for bar, row in zip(rows, [*found.models, *by_slot], strict=True):
-        assert sum(part for _, part, _ in bar.parts) == pytest.approx(row.torque, rel=1e-12, nan_ok=True)
-        assert bar.hatched == bool(row.outside)
-    assert all(bar.hatched for bar in rows) == (load < 10)
 
 
 def test_colours_tell_all_mechanisms_apart():

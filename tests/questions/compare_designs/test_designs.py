@@ -7,9 +7,10 @@ import pytest
 from typer.testing import CliRunner
 
 from ballscrew.faces.cli.main import app
+from support.commands import ROOT
 from support.documents import assert_same
 
-PROJECT = str(Path(__file__).parents[3] / "examples" / "projects" / "two_oils.toml")
+PROJECT = str(ROOT / "examples" / "projects" / "two_oils.toml")
 
 
 def output(*arguments):

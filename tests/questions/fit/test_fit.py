@@ -17,60 +17,11 @@ from support.fit_logs import (
     OFFSET,
     PAPER,
     RPM,
-    TRUE_FRICTION,
     changed,
     columns,
-    document_of,
     refused,
 )
-
-# -- what it says ---------------------------------------------------------------------------------
-
-
-def test_json_has_what_is_promised(fit, log):
-    path = log()
-    found = document_of(fit(path, "--json"))
-    assert {"estimates", "residual_rms", "holdout_rms", "warnings"} < set(found)
-    assert list(found["estimates"]) == [FRICTION]
-    estimate = found["estimates"][FRICTION]
-    assert {"value", "std", "identified"} < set(estimate)
-    assert estimate["identified"] is True
-    assert abs(estimate["value"] - TRUE_FRICTION) < 4 * estimate["std"]
-    assert estimate["std"] < 0.01
-    assert found["residual_rms"] == pytest.approx(NOISE, rel=0.3)
-    assert found["holdout_rms"] == pytest.approx(NOISE, rel=0.5)
-    assert isinstance(found["warnings"], list)
-    assert found["rows"]["read"] == found["rows"]["used"] == 120
-    assert found["provenance"]["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
-    assert found["provenance"]["version"] == __version__
-    assert found["covariance"]["matrix"] == [[pytest.approx(estimate["std"] ** 2)]]
-
-
-def test_words(fit, log):
-    done = fit(log())
-    assert done.returncode == 0, done.stderr
-    text = done.stdout
-    assert text.startswith("log.csv, model olaru2005: 120 of 120 rows used\n")
-    for words in (
-        "torque read as: torque on the shaft, load and speed with their signs",
-        "Among the numbers are 3 for a sensor whose zero wanders slowly, not listed above",
-        "the model calibrated",
-        "the model as given",
-        "Stribeck, viscous and load",
-        "efficiency pair",
-        "Predicted less measured",
-        "next test: ",
-        "it would leave ",
-    ):
-        assert words in text
-    (line,) = [line for line in text.splitlines() if line.startswith("  boundary friction coefficient")]
-    value, error, start = re.split(r"\s{2,}", line.strip())[1:]
-    assert re.fullmatch(r"0\.1\d* \(0\.1\d* to 0\.1\d*\)", value)
-    assert 0 < float(error) < 0.01
-    assert start == "0.2"
-    assert not any(word in text for word in ("nan", "Traceback"))
-    assert list(done.place.iterdir()) == []
-
+from support.processes import document_of
 
 # -- what it writes -------------------------------------------------------------------------------
 
@@ -170,25 +121,6 @@ def test_json_stays_alone_on_its_stream(fit, log):
     assert {file.name for file in done.place.iterdir()} == {"fitted.toml", "fit.svg"}
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (["-o", "fitted.csv"], "--to: is no case file (fitted.csv)"),
-        (["-o", "fitted"], "--to: is no case file (fitted)"),
-        (["-o", "../log.csv/fitted.toml"], "--to"),
-        (["--picture", "a.doc"], "a.doc"),
-    ],
-)
-def test_places_that_cannot_be_written_are_refused_before_anything_is_read(options, words, fit, log):
-    (line,) = refused(fit(log(columns(2)), *options), words)
-    assert "rows" not in line
-
-
-def test_a_log_that_is_not_there_is_refused(fit, tmp_path):
-    (line,) = refused(fit(tmp_path / "missing.csv", "-o", "fitted.toml"), "missing.csv")
-    assert "does not exist" in line
-
-
 # -- what can be asked ----------------------------------------------------------------------------
 
 
@@ -218,25 +150,6 @@ def test_headings_by_hand(fit, log):
     by_hand = ("--column", "torque=Kanal 7 [N mm]", "--column", "axial_load=Kanal 8 [N]")
     found = document_of(fit(path, "--json", *by_hand))["estimates"]
     assert found[FRICTION]["value"] == pytest.approx(expected[FRICTION]["value"], rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (["--free", "constant_torqe"], '--free: unknown name (constant_torqe) · did you mean "constant_torque"?'),
-        (["--free", "axial_load"], "--free: is given by the log (axial_load)"),
-        (["--bounds", f"{FRICTION}=0.1"], "--bounds: is not name=low:high"),
-        (["--limits", "screw_speed=1 kg:2 rpm"], "--limits screw_speed: wrong unit (1 kg)"),
-        (["--kind", "torque"], "--kind: unknown kind of torque (torque)"),
-        (["--inertia", "2 kg"], "--inertia"),
-        (["--column", "torque"], "--column: is not name=heading (torque)"),
-        (["--holdout", "nan"], "--holdout: must be a share from 0 to 0.5 (nan)"),
-        (["--set", "model.friction.decay=1 ± x"], "model.friction.decay"),
-        (["--model", "olaru"], "olaru"),
-    ],
-)  # fmt: skip
-def test_what_cannot_be_asked(options, words, fit, log):
-    assert len(refused(fit(log(), *options, "-o", "fitted.toml", "--picture", "fit.svg"), words)) == 1
 
 
 # -- the error of the oil temperature --------------------------------------------------------------
@@ -273,21 +186,6 @@ def test_the_error_of_a_temperature_that_the_case_has_is_that_of_the_case(ballsc
     assert (unknown, given, said) == (10.0, pytest.approx(3.0), 1.0)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("2 degC", 'is a difference of temperatures, in K (2 degC) · write --temperature-error "2 K"'),
-        ("2", "--temperature-error: needs a unit"),
-        ("-1 K", "--temperature-error: must not be negative"),
-        ("200 K", "--temperature-error: must be from 0 to 100 K"),
-    ],
-)
-def test_an_error_of_the_temperature_that_is_none_is_refused(ballscrew, text, words):
-    done = ballscrew(*QUICK, "--temperature-error", text)
-    assert done.returncode == 2
-    assert words in done.stderr
-
-
 # -- numbers that no screw has -----------------------------------------------------------------------
 
 
@@ -319,9 +217,6 @@ def test_a_trade_off_is_one_sentence(ballscrew):
     assert "more boundary friction coefficient with" in sentence
     assert sentence.endswith("less constant torque fits the rows nearly as well (one standard error)")
     assert "^" not in text
-
-
-# -- rows that are not used --------------------------------------------------------------------------
 
 
 # -- logs that are not as they should be, and the example ---------------------------------------------

@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,8 +13,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.sweep import compute as sweep
 from ballscrew.questions.sweep.band import with_band
+from support.commands import ROOT
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
+EXAMPLES = ROOT / "examples"
 DRIVE = EXAMPLES / "feed_drive.toml"
 #: Both have the same samples: however few they are, the ends are equal.
 OPTIONS = BandOptions(samples=64)
@@ -118,27 +118,6 @@ def test_files_have_the_ends_beside_the_values(tmp_path, ballscrew):
     # two axes: a table has no room for three numbers a point
     both = ballscrew("sweep", DRIVE, *wanted, "--vary", "screw_speed=100, 200 rpm")
     assert len(both.stdout.splitlines()) == 5
-
-
-@pytest.mark.parametrize(
-    ("options", "said"),
-    [
-        (["--output", "deflection", "--band"], "--output: has no band (deflection)"),
-        (["--band", "--to", "map.zarr"], "--band: fills no store"),
-        (["--band", "--self-heating"], "--band: is given beside --self-heating"),
-        (["--samples", "1"], "--samples: must be a whole number"),
-        (["--level", "2"], "--level: must lie between 0 and 1"),
-        (["--json", "--rows", "screws.csv"], "--json: is of one screw"),
-    ],
-)
-def test_what_has_no_band_is_said(options, said, ballscrew, tmp_path):
-    if "screws.csv" in options:
-        (tmp_path / "screws.csv").write_bytes((EXAMPLES / "screws.csv").read_bytes())
-        options = [*options[:-1], tmp_path / "screws.csv"]
-    process = ballscrew("sweep", DRIVE, "--vary", "screw_speed=100, 200 rpm", *options)
-    assert process.returncode
-    assert said in process.stderr
-    assert isinstance(process.stdout, str)
 
 
 def test_options_of_a_band_are_checked_before_it():

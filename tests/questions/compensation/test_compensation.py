@@ -186,12 +186,3 @@ def test_both_lists_are_the_growth_of_another_case(direction, sign):
     points, ahead, back = ([float(held[f"[{k}].{n}"]) for k in range(count)] for n in ("setpoint", "pos", "neg"))
     assert ahead == back
     assert np.max(np.abs(1e-7 * np.interp(1e7 * at, points, ahead) - wanted)) <= found.worst_error + 1.5e-7
-
-
-def test_the_command_refuses_before_it_computes(ballscrew, example, tmp_path):
-    done = ballscrew("compensation", example.with_name("warm_up.toml"), "--to", "siemens", "-o", tmp_path / "a.ini")
-    assert done.returncode == 2
-    assert done.stderr.startswith("--to: unknown control (siemens)")
-    done = ballscrew("compensation", example, "--to", "isg", "-o", tmp_path / "a.lis", "--zero", "2 N")
-    assert done.stderr.startswith("--zero: wrong unit (2 N)")
-    assert list(tmp_path.glob("a.*")) == []

@@ -9,7 +9,6 @@ import pytest
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Chart, Curve, Lines
-from ballscrew.basis.output.text import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.faces.sheets import pictures
@@ -18,6 +17,8 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.shared.charts import house_style
 from ballscrew.questions.validate import answer, compute, sheet
 from support.documents import assert_same
+from support.own_screws import SCREW
+from support.processes import document_of, refused
 from support.validation_sets import every_set
 
 pytestmark = pytest.mark.slow
@@ -30,21 +31,6 @@ HEADINGS = (
 FITTED = ("rexroth-double-nut", "rexroth-single-nut")
 GOOD = "40,12,6,4,49900,86200,.40,.75,1.25"
 OTHER = "20,5,3,5,17500,27300,.07,.09,.26"
-
-
-def documents(process):
-    assert process.returncode == 0, process.stderr
-    return json.loads(process.stdout)
-
-
-def refused(process, *expected):
-    assert process.returncode == 2
-    assert process.stdout == ""
-    assert "Traceback" not in process.stderr
-    lines = process.stderr.strip().splitlines()
-    assert len(lines) == len(expected), process.stderr
-    for line, text in zip(lines, expected, strict=True):
-        assert text in line
 
 
 @pytest.fixture
@@ -62,7 +48,7 @@ def own(tmp_path):
 
 @pytest.fixture(scope="module")
 def every():
-    return plain(answer.documents([entry for entries in every_set() for entry in entries]))
+    return plain(answer.document_of([entry for entries in every_set() for entry in entries]))
 
 
 def test_a_list_uncalibrated_first_calibrated_last(every):
@@ -148,7 +134,7 @@ def test_rows_with_a_maximum_only_are_apart(every):
 
 
 def test_what_is_not_finite_is_null(own, ballscrew):
-    one = documents(ballscrew("validate", "thk-jis", "--json"))[0]
+    one = document_of(ballscrew("validate", "thk-jis", "--json"))[0]
     assert one["n"] == 1
     assert one["std_ratio"] is None
 
@@ -186,9 +172,9 @@ OWN = {
 def test_rows_of_ones_own_are_those_shipped(ballscrew, own, name):
     headings, rows, names = OWN[name]
     process = ballscrew("validate", name, "--rows", own(*rows, headings=headings), "--json")
-    found = documents(process)[0]
+    found = document_of(process)[0]
     assert process.stderr == ""
-    shipped = {row["name"]: row for row in documents(ballscrew("validate", name, "--json"))[0]["rows"]}
+    shipped = {row["name"]: row for row in document_of(ballscrew("validate", name, "--json"))[0]["rows"]}
     assert names is None or [row["name"] for row in found["rows"]] == names
     assert found["n"] == len(rows)
     for row in found["rows"]:
@@ -196,9 +182,9 @@ def test_rows_of_ones_own_are_those_shipped(ballscrew, own, name):
 
 
 def test_the_summary_is_one_object(ballscrew):
-    found = documents(ballscrew("validate", "rexroth-single-nut", "thk-jis", "--summary", "--json"))["summary"]
+    found = document_of(ballscrew("validate", "rexroth-single-nut", "thk-jis", "--summary", "--json"))["summary"]
     assert {(row["maker"], row["nut"]) for row in found} == {("Rexroth", "single"), ("THK", "double")}
-    entries = documents(ballscrew("validate", "rexroth-single-nut", "--json"))
+    entries = document_of(ballscrew("validate", "rexroth-single-nut", "--json"))
     for entry in entries:
         (row,) = [
             one for one in found if one["set"] == entry["set"] and one["name"] == (entry["calibration"] or "reference")
@@ -209,22 +195,22 @@ def test_the_summary_is_one_object(ballscrew):
 
 def test_own_rows_were_never_used(ballscrew, own):
     file = own(GOOD, OTHER)
-    assert all(one["used_for"] == [] for one in documents(ballscrew("validate", FITTED[1], "--rows", file, "--json")))
-    found = documents(ballscrew("validate", FITTED[1], "--rows", file, "--summary", "--json"))["summary"]
+    assert all(one["used_for"] == [] for one in document_of(ballscrew("validate", FITTED[1], "--rows", file, "--json")))
+    found = document_of(ballscrew("validate", FITTED[1], "--rows", file, "--summary", "--json"))["summary"]
     assert [row["chosen_on"] for row in found] == [[]] * len(found)
     faulty = own(GOOD, OTHER.replace("17500", "many"))
     process = ballscrew("validate", FITTED[1], "--rows", faulty, "--summary", "--json", "--keep-going")
-    assert {row["n"] for row in documents(process)["summary"]} == {1}
+    assert {row["n"] for row in document_of(process)["summary"]} == {1}
     assert "1 of 2 rows left out" in process.stderr
 
 
 def test_own_rows_with_oil_and_speed(ballscrew, own):
     file = own(f"{GOOD},100 rpm,25 degC", f"{GOOD},500 rpm,60 degC", headings=f"{HEADINGS},speed,temperature")
-    slow, fast = documents(ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json"))[0]["rows"]
+    slow, fast = document_of(ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json"))[0]["rows"]
     assert slow["value"] != fast["value"]
     file = own(GOOD)
     options = ("--speed", "500 rpm", "--temperature", "60 degC")
-    (found,) = documents(ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json", *options))[0]["rows"]
+    (found,) = document_of(ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json", *options))[0]["rows"]
     assert found["value"] == pytest.approx(fast["value"], rel=1e-12)
 
 
@@ -236,14 +222,13 @@ def test_a_bad_row_is_named(ballscrew, own):
     )
     refused(ballscrew("validate", "rexroth-single-nut", "--rows", file), *expected)
     process = ballscrew("validate", "rexroth-single-nut", "--rows", file, "--json", "--keep-going")
-    assert documents(process)[0]["n"] == 1
+    assert document_of(process)[0]["n"] == 1
     lines = process.stderr.strip().splitlines()
     assert [text in line for line, text in zip(lines, (*expected, "2 of 3 rows left out"), strict=True)] == [True] * 3
 
 
-def test_a_file_needs_its_columns_and_its_set(ballscrew, own):
+def test_a_file_needs_its_columns(ballscrew, own):
     file = own("40,12,6,4,49900,.75", headings=HEADINGS.replace(",static_load_rating_N", "").rpartition(",")[0][:-28])
-    refused(ballscrew("validate", "--rows", file), "--rows: needs exactly one set (none) · name the set whose columns")
     process = ballscrew("validate", "rexroth-single-nut", "--rows", file)
     assert process.returncode == 2
     assert 'own.csv: has no column "no_load_torque_5pct_m' in process.stderr
@@ -252,40 +237,13 @@ def test_a_file_needs_its_columns_and_its_set(ballscrew, own):
 # -- options --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("options", "expected"),
-    [
-        (("rexroth-double",), 'validate: unknown set (rexroth-double) · did you mean "rexroth-double-nut"?'),
-        (("--model", "refrence"), '--model: unknown model (refrence) · did you mean "reference"?'),
-        (
-            ("--calibration", "rexroth"),
-            'model.calibration: unknown calibration (rexroth) · did you mean "rexroth-2006',
-        ),
-        (("--temperature", "25"), '--temperature: needs a unit (25) · write "25 degC"'),
-        (("--temperature", "900 degC"), "--temperature: must be at most 150 degC (900 degC)"),
-        (("--speed", "-5 rpm"), "--speed: must not be negative (-5 rpm)"),
-        (("--grade", "VG 101010"), "--grade: unknown grade (VG 101010)"),
-        (("--summary", "--to", "ratios.png"), "--summary: is no picture and no paper · leave --to out"),
-        (("--summary", "--card", "a.toml"), "--summary: is a table of the sets · leave --card out"),
-        (("--to", "ratios.bmp"), "--to: unknown kind of file (ratios.bmp)"),
-        (("hiwin-ratings", "--speed", "5 rpm"), "validate: oil and speed do not move these sets (hiwin-ratings)"),
-        (
-            ("rexroth-single-nut", "--model", "olaru2005"),
-            "rexroth-single-nut: model olaru2005 knows no balls with four",
-        ),
-    ],
-)
-def test_bad_options(ballscrew, options, expected):
-    refused(ballscrew("validate", *options), expected)
-
-
 def test_another_model_is_as_it_is(ballscrew):
     process = ballscrew("validate", "thk-jis", "--model", "olaru2005", "--json")
-    (found,) = documents(process)
+    (found,) = document_of(process)
     assert (found["model"], found["calibration"]) == ("olaru2005", None)
     assert found["mean_ratio"] < 0.5
     asked = ("validate", "thk-jis", "--model", "olaru2005", "--calibration", "rexroth-2006", "--json")
-    assert [one["calibration"] for one in documents(ballscrew(*asked))] == [None, "rexroth-2006"]
+    assert [one["calibration"] for one in document_of(ballscrew(*asked))] == [None, "rexroth-2006"]
 
 
 def test_sets_that_a_model_cannot_do_are_left_out_aloud():
@@ -297,40 +255,11 @@ def test_sets_that_a_model_cannot_do_are_left_out_aloud():
 # -- for people -----------------------------------------------------------------------------------
 
 
-def test_text(ballscrew):
-    process = ballscrew("validate", "rexroth-double-nut", "rexroth-single-nut")
-    assert process.returncode == 0, process.stderr
-    double, single = process.stdout.split("\n\nrexroth-single-nut: ")
-    words = " ".join(double.split())
-    assert "100 rpm, ISO VG 100 at 25 degC, no load, no wipers" in words
-    assert "n mean scatter least greatest in band own band high / low uncalibrated (reference)" in words
-    assert re.search(r"uncalibrated \(reference\) 24 0\.86\d+ 0\.09\d+ 0\.75\d 1\.1\d 95\.8% 100\.0% 3\.\d", words)
-    assert re.search(r" calibrated \(rexroth-2006\) 24 1\.0\d\d 0\.09\d+ 0\.88\d 1\.2\d 95\.8% 100\.0% 2\.\d", words)
-    assert re.search(r"rule: Rexroth's rule 24 0\.99\d+ ", words)
-    rows = [line for line in double.splitlines() if re.search(r" at (7|10) %", line)]
-    assert len(rows) == 24
-    assert sorted(line.split()[-1] for line in rows if line.endswith(("model", "calibrated"))) == [
-        "calibrated",
-        "model",
-    ]
-    assert re.search(r"  16x5x3-4 at 7 % +0\.055 \(0\.03 to 0\.08\) +0\.0550\d? +1", rows[0])
-    assert "apart, with a maximum only, which is in no mean\n" in single
-    assert len(re.findall(r" at 2 %", single)) >= 18
-
-
 def test_warnings_of_the_model_are_told(ballscrew):
     process = ballscrew("validate", "thk-jis", "--speed", "100000 rpm")
     assert process.returncode == 0, process.stderr
     assert re.search(r"warning  \w+: uncalibrated \(reference\), 1 rows: ", process.stdout)
     assert "warning" not in ballscrew("validate", "thk-jis").stdout
-
-
-def test_picture(ballscrew, tmp_path):
-    for name in ("a.svg", "b.svg", "c.png", "d.pdf"):
-        process = ballscrew("validate", "thk-jis", "--to", name)
-        assert process.returncode == 0, process.stderr
-        assert f"{name}: 1 sets" in process.stdout
-    assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 
 def test_picture_shows_all_ratios_with_their_bands():
@@ -379,14 +308,14 @@ def _values(found, set_name, name):
 
 
 def test_sheets_as_json(ballscrew):
-    both = documents(ballscrew("validate", "thk-jis", "hiwin-ratings", "--sheet"))
+    both = document_of(ballscrew("validate", "thk-jis", "hiwin-ratings", "--sheet"))
     assert [sheet["title"].partition(":")[0] for sheet in both] == ["thk-jis", "hiwin-ratings"]
     _, ratios, rows, *_ = both[0]["blocks"]
     assert (ratios["name"], rows["name"]) == ("ratios", "rows")
-    (example,) = documents(ballscrew("validate", "thk-jis", "--json"))[0]["rows"]
+    (example,) = document_of(ballscrew("validate", "thk-jis", "--json"))[0]["rows"]
     stated, model = rows["rows"][0][1:3]
     assert (stated["value"], stated["band"], model["value"]) == (example["middle"], example["band"], example["value"])
-    (makers,) = documents(ballscrew("validate", "thk-jis", "--summary", "--sheet"))
+    (makers,) = document_of(ballscrew("validate", "thk-jis", "--summary", "--sheet"))
     assert [block["name"] for block in makers["blocks"] if block["kind"] == "table"] == ["makers"]
 
 
@@ -398,30 +327,14 @@ def test_own_rows_are_not_the_vendors(ballscrew, own):
     assert "Rexroth R310" not in process.stdout
 
 
-def test_no_line_is_wider_than_the_widest(ballscrew):
-    names = [name for name in SETS if name not in FITTED]
-    process = ballscrew("validate", *names, "--speed", "100000 rpm")
-    assert process.returncode == 0, process.stderr
-    assert max(map(len, process.stdout.splitlines())) <= WIDTH
-
-
-def test_help_is_instant(ballscrew):
-    process = ballscrew("validate", "--help")
-    assert process.returncode == 0
-    assert "reference (default)" in " ".join(process.stdout.split())
-
-
 # -- in a case file -------------------------------------------------------------------------------
 
 
 CASE = {
-    "screw": {
-        "pitch_circle_diameter": "41.4 mm", "lead": "10 mm", "ball_diameter": "6.35 mm", "loaded_balls": 75,
-        "contact_angle": "45 deg", "screw_conformity": 0.54, "nut_conformity": 0.54,
-    },
+    "screw": SCREW,
     "lubricant": {"viscosity": "100 mPa s"},
     "operation": {"axial_load": "5 kN", "screw_speed": "600 rpm"},
-}  # fmt: skip
+}
 
 
 def test_a_case_with_a_calibration():

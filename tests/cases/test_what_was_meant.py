@@ -1,7 +1,6 @@
 """What is written almost right: read where it can only mean one thing, else refused with what was probably meant."""
 
 import dataclasses
-from pathlib import Path
 
 import pytest
 
@@ -13,8 +12,9 @@ from ballscrew.cases.case_files import case_file, lubricants
 from ballscrew.physics.laws.nut_losses import Seals
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.sweep import compute
+from support.commands import ROOT
 
-FEED = Path(__file__).parents[3] / "examples" / "feed_drive.toml"
+FEED = ROOT / "examples" / "feed_drive.toml"
 TEXT = FEED.read_text(encoding="utf-8")
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
 MODEL, OIL = bs.FrictionModel.reference(), bs.Lubricant.from_grade("ISO VG 100")

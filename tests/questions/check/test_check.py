@@ -1,27 +1,22 @@
 """``ballscrew check``: from a row, shipped or one's own, or from a case to everything in one command."""
 
-import dataclasses
 import json
 import math
-from pathlib import Path
 
 import pytest
 
 import ballscrew as bs
-from ballscrew.basis.output.text import WIDTH
 from ballscrew.cases.case_files import case_file
-from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.equations import life
 from ballscrew.physics.sizing.catalogue import printed_rows
 from ballscrew.physics.sizing.checks import loads_of_halves
-from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.check import answer
+from support.commands import ROOT
+from support.processes import refused
 
-ROOT = Path(__file__).parents[3]
 EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
 SCREWS = ROOT / "examples" / "screws.csv"
 NAME = "rexroth-40x10x6-6-double"
-ROW = bs.catalogue()[NAME]
 RPM = 2 * math.pi / 60
 
 #: The same screw with other headings, a decimal comma and semicolons.
@@ -32,16 +27,6 @@ bad;40;10;-6;6;72,1;132,2;Double
 """.replace("Type of nut", "nut type")
 
 
-def refused(process, *expected):
-    assert process.returncode == 2
-    assert process.stdout == ""
-    assert "Traceback" not in process.stderr
-    lines = process.stderr.strip().splitlines()
-    assert len(lines) == len(expected), process.stderr
-    for line, text in zip(lines, expected, strict=True):
-        assert text in line
-
-
 def checked(name=NAME, **given):
     return answer.one(
         str(name), None, answer.Options({k.replace("__", "."): v for k, v in given.items()}, [], None), False
@@ -49,46 +34,6 @@ def checked(name=NAME, **given):
 
 
 # -- a row ----------------------------------------------------------------------------------------
-
-
-def test_a_row_is_checked_in_one_command(ballscrew):
-    process = ballscrew("check", NAME, "--preload", "7 %", "--length", "1.2 m", "--ends", "fixed-supported")
-    assert process.returncode == 0, process.stderr
-    assert process.stderr == ""
-    text = " ".join(process.stdout.split())
-    for words in (
-        f"{NAME} (Rexroth R310RU 3301 (2006.02)): 7210 N, 600 rpm, double nut, preload 5047 N, model reference",
-        "efficiency, screw drives the nut", "efficiency, the load drives the screw", "drag torque without seals",
-        "axial rigidity of the nut", "dynamic axial load rating 72.1 kN",
-        "the static rating that is listed counts: a maker", "static safety", "basic rating life L10",
-        "buckling", "critical speed", "diameter speed product", "verdict: 6 of 8 judged, and these hold",
-        "assumed: axial load 7.21 kN: a tenth of C_a speed 600 rpm oil ISO VG 100", "conformity 0.54 ± 0.01",
-        "screw and nut elastic, of a usual size", "5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed",
-    ):  # fmt: skip
-        assert words in text, words
-    assert "not checked" not in text
-
-
-def test_numbers_are_those_of_python(ballscrew):
-    document = json.loads(ballscrew("check", NAME, "--preload", "7 %", "--json").stdout, parse_constant=pytest.fail)
-    screw = dataclasses.replace(ROW.screw(), nut=bs.DoubleNut(0.07 * 72100, bodies=Bodies()))
-    oil = bs.Lubricant.from_grade("ISO VG 100", 313.15)
-    expected = bs.FrictionModel.reference()(screw, oil, axial_load=7210.0, screw_speed=600 * RPM)
-    found = document["results"]
-    assert found["screw_torque"] == pytest.approx(float(expected.screw_torque), rel=1e-9)
-    assert found["efficiency"] == pytest.approx(float(expected.efficiency), rel=1e-9)
-    assert found["back_driving_efficiency"] == pytest.approx(float(expected.back_driving_efficiency), rel=1e-9)
-    assert document["loads"]["rigidity"] == pytest.approx(float(expected.loads.rigidity), rel=1e-9)
-    assert document["ratings"]["listed"] == {"dynamic_load_rating": 72100, "static_load_rating": 132200}
-    computed = ratings_of(ROW)
-    assert document["ratings"]["computed"]["dynamic_load_rating"] == pytest.approx(computed.dynamic, rel=1e-12)
-    assert document["ratings"]["computed"]["static_load_rating"] == pytest.approx(computed.static, rel=1e-12)
-    by_name = {check["name"]: check for check in document["checks"]}
-    assert by_name["life"]["value"] / (600 / 60) == pytest.approx(by_name["running_time"]["value"])
-    assert by_name["contact_pressure"]["value"] == pytest.approx(found["maximum_pressure"])
-    assert by_name["buckling"]["passes"] is None
-    assert document["units"]["ratings"]["listed"]["dynamic_load_rating"] == "N"
-    assert document["inputs"]["screw"]["catalogue"] == NAME
 
 
 @pytest.mark.parametrize("row", printed_rows(), ids=lambda row: row.name)
@@ -229,43 +174,10 @@ def test_bad_rows_are_named_and_good_ones_kept(ballscrew, tmp_path):
 # -- what is wrong --------------------------------------------------------------------------------
 
 
-def test_bad_input(ballscrew, tmp_path):
-    refused(ballscrew("check", "40x10x6-6-double"), f'unknown row (40x10x6-6-double) · did you mean "{NAME}"?')
-    refused(ballscrew("check", "none.toml"), "none.toml: does not exist")
-    refused(ballscrew("check", "some/where"), "does not exist")
-    refused(ballscrew("check", SCREWS), f"is a table, not a case · write --rows {SCREWS}")
-    refused(ballscrew("check", NAME, "--axial-load", "5 mm"), "--axial-load: wrong unit (5 mm)")
-    refused(ballscrew("check", NAME, "--preload", "7"), '--preload: needs a unit (7) · write "7 %" of the dynamic')
-    refused(ballscrew("check", NAME, "--preload", "0.07"), '--preload: needs a unit (0.07) · write "7 %" of the')
-    refused(ballscrew("check", NAME, "--preload", "700"), '--preload: needs a unit (700) · write "700 N"')
-    refused(ballscrew("check", NAME, "--set", "nut.preload=7"), 'nut.preload: needs a unit (7) · write "7 %"')
-    refused(ballscrew("check", NAME, "--nut", "duble"), '--nut: unknown kind of nut (duble) · did you mean "double"?')
-    refused(ballscrew("check", NAME, "--length", "1 m"), '--ends: missing · add --ends "')
-    refused(ballscrew("check", NAME, "--ends", "fixed-free"), '--length: missing · add --length "1 m"')
-    bad = ("--nut", "single", "--preload", "5 %")
-    refused(
-        ballscrew("check", NAME, *bad), '--preload: a nut of type "single" has none (5 %) · leave it out, or take --nut'
-    )
-    refused(ballscrew("check", NAME, "--ends", "fixed", "--length", "1 m"), "--ends: unknown kind of ends")
-    refused(ballscrew("check", NAME, "--grade", "VG 99"), "--grade: ")
-    refused(ballscrew("check", NAME, "--model", "x"), "--model: unknown model (x)")
-    refused(ballscrew("check", NAME, "--set", "model.name=x"), "model.name: unknown model (x)")
-    refused(ballscrew("check", NAME, "--set", "nut=double"), "--set: is not section.field=value")
-    refused(ballscrew("check", NAME, "--set", "screw.lead=1 mm"), "too big for the lead")
-
-
 def test_a_check_that_fails_is_no_error(ballscrew):
     process = ballscrew("check", NAME, "--length", "9 m", "--ends", "fixed-free")
     assert process.returncode == 0
     assert "FAILS" in process.stdout
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("what", [(NAME, "--preload", "7 %", "--nut", "offset-lead"), (EXAMPLE,), ("--all",)])
-def test_no_line_is_wider_than_the_widest(ballscrew, what):
-    process = ballscrew("check", *what)
-    assert process.returncode == 0, process.stderr
-    assert max(map(len, process.stdout.splitlines())) <= WIDTH
 
 
 def test_long_verdicts_go_on_below_themselves(ballscrew):

@@ -3,7 +3,6 @@
 import json
 import math
 import re
-from pathlib import Path
 
 import pytest
 
@@ -11,8 +10,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.screw_tables.catalogue import case_text, screws
 from ballscrew.questions.compare.compute import comparison
 from ballscrew.questions.run.compute import run
+from support.commands import ROOT
 
-AXIS = Path(__file__).parents[3] / "examples" / "vertical_axis.toml"  # seals of 0.3 N m
+AXIS = ROOT / "examples" / "vertical_axis.toml"  # seals of 0.3 N m
 OWN = """name;make;d0 [mm];Ph [mm];Dw [mm];turns;Ca [kN];nut;preload;seals
 A;THK;40;10;6;5;50;double;7 %;standard
 B;Rexroth;40;10;6;5;50;double;7 %;standard
@@ -145,23 +145,3 @@ def test_seals_of_another_maker_are_called_so(tmp_path, ballscrew):
     assumed = json.loads(ballscrew("check", "A", "--rows", table, "--json").stdout)["assumed"]
     assert any("not of THK" in line for line in assumed)
     assert "of which seals (standard seals of Rexroth2006, not of THK) 0.4 N m" in text
-
-
-@pytest.mark.slow
-def test_the_source_of_seals_is_in_every_document(tmp_path, ballscrew):
-    table = tmp_path / "own.csv"
-    table.write_text(OWN, encoding="utf-8")
-    wanted = {
-        "A": "standard seals of Rexroth2006, not of THK",
-        "C": None,
-        "D": "standard seals of Rexroth2006, of whatever make the nut is",
-    }
-    for name, source in wanted.items():
-        seals = json.loads(ballscrew("check", name, "--rows", table, "--json").stdout)["inputs"]["losses"]["seals"]
-        assert seals.get("source") == source
-        shown = ballscrew("catalogue", "show", name, "--rows", table)
-        assert (f"0.4 N m ({source})" if source else "0.4 N m\n") in shown.stdout
-        row = json.loads(ballscrew("catalogue", "show", name, "--rows", table, "--json").stdout)
-        assert row["seal_torque_source"] == source
-    changed = ballscrew("check", "A", "--rows", table, "--set", "losses.seals.seal_torque=0.3 N m", "--json").stdout
-    assert "source" not in json.loads(changed)["inputs"]["losses"]["seals"]

@@ -1,8 +1,6 @@
 """``ballscrew run --band``: words, JSON, pictures, bad input."""
 
-import json
 import math
-import re
 
 import pytest
 from matplotlib.text import Text
@@ -20,37 +18,12 @@ from ballscrew.questions.band import answer, compute
 from ballscrew.questions.band.sheet import sheet
 from ballscrew.questions.compare.compute import candidates
 from ballscrew.questions.shared import charts
-from support.pictures import words_of
+from support.processes import document_of
 
 
 @pytest.fixture
 def drive(example):
     return example.with_name("feed_drive.toml")
-
-
-def document_of(process):
-    assert process.returncode == 0, process.stderr
-    return json.loads(process.stdout)
-
-
-def test_json(drive, ballscrew):
-    with_band = document_of(ballscrew("run", drive, "--band", "--json", "--samples", "512"))
-    without = document_of(ballscrew("run", drive, "--json"))
-    found, units = with_band.pop("band"), with_band["units"].pop("band")
-    banded = {name for name, one in found.items() if isinstance(one, dict) and "median" in one}
-    assert {"screw_torque", "efficiency"} < banded < units.keys()
-    for kind in ("verdicts", "warnings"):  # those of the band stand after those of the run
-        own = with_band[kind][len(without[kind]) :]
-        assert with_band[kind] == [*without[kind], *own]
-        assert all(record["id"].startswith("band.") for record in own)
-        with_band[kind] = without[kind]
-    assert with_band == without
-    assert (found["level"], found["samples"], found["seed"]) == (0.95, 512, 0)
-    for name in ("screw_torque", "efficiency", "back_driving_efficiency", "holding_torque", "friction_power"):
-        assert found[name]["value"] == pytest.approx(without["results"][name], rel=1e-12)
-    assert found["inputs"]["temperature"]["distribution"].startswith("normal, mean 313.15 K")
-    assert found["inputs"]["friction.full_film_friction_coefficient"]["source"] == "Arana2019"
-    assert {law["name"] for law in found["laws"]["rolling"]} == {"olaru", "houpert", "aihara"}
 
 
 def output_band(value, both, inputs, laws, median=1.0):
@@ -89,29 +62,6 @@ def test_only_given(drive, ballscrew):
     assert nothing["screw_torque"]["parameters"] == dict.fromkeys(("low", "high"), nothing["screw_torque"]["value"])
 
 
-def test_words(drive, ballscrew):
-    process = ballscrew("run", drive, "--band", "--set", "lubricant.temperature=45 ± 5 degC", "--samples", "1024")
-    assert process.returncode == 0, process.stderr
-    text = process.stdout
-    assert text.startswith("5000 N, 600 rpm, model reference\n")
-    assert "95 % of the samples of inputs and laws between" in text
-    assert "self-locking in none of the samples" in text
-    assert "  temperature 45 degC ± 5 K\n" in text
-    assert re.search("  full film +arana", text)
-    assert "(ISO3290-1: grades G3 to G40" in " ".join(text.split())
-    for name in ("inputs and laws", "inputs alone", "laws alone", "efficiency, load drives"):
-        assert name in text
-    assert not any(word in text for word in ("nan", "Traceback"))
-
-
-def test_a_whole_nut(example, ballscrew):
-    nut = example.with_name("catalogue_screw.toml")
-    found = document_of(ballscrew("run", nut, "--band", "--json", "--samples", "32"))
-    assert found["band"]["samples"] == 32
-    assert found["band"]["screw_torque"]["value"] == found["results"]["screw_torque"]
-    assert "loads" in found
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("setting", "words"),
@@ -127,36 +77,6 @@ def test_limits_in_words(setting, words, drive, ballscrew):
     assert words in process.stdout
     assert process.stderr == ""
     document_of(ballscrew("run", drive, "--band", "--samples", "256", "--set", setting, "--json"))
-
-
-@pytest.mark.parametrize(
-    ("options", "expected"),
-    [
-        (["--samples", "8"], "--samples: needs --band (8) · add --band"),
-        (["--level", "0.9"], "--level: needs --band (0.9) · add --band"),
-        (["--only-given"], "--only-given: needs --band"),
-        (["--to", "band.png"], "--to: needs --band (band.png) · add --band"),
-        (["--band", "--samples", "1"], "--samples: must be a whole number from 2 to 2^30 (1)"),
-        (["--band", "--level", "95"], "--level: must lie between 0 and 1 (95.0)"),
-        (["--band", "--level", "nan"], "--level: must lie between 0 and 1 (nan)"),
-        (["--band", "--to", "band.doc"], "--to: unknown kind of file (band.doc)"),
-        (["--band", "--set", "screw.screw_conformity=0.54 ± x"], "screw.screw_conformity: is not a number"),
-    ],
-)
-def test_bad_input(options, expected, drive, ballscrew, tmp_path):
-    process = ballscrew("run", drive, *options)
-    assert process.returncode == 2
-    assert process.stdout == ""
-    assert process.stderr.startswith(expected)
-    assert len(process.stderr.strip().splitlines()) == 1
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_picture(drive, ballscrew, tmp_path):
-    process = ballscrew("run", drive, "--band", "--samples", "64", "--to", "band.svg")
-    assert process.returncode == 0, process.stderr
-    assert "speed of the screw [rpm]" in words_of(tmp_path / "band.svg")
-    assert "band.svg: 64 samples of 16 uncertain inputs" in process.stdout
 
 
 @pytest.mark.slow
