@@ -178,89 +178,6 @@ def test_the_default_force_between_balls_can_be_swept(model, seed_screw, seed_oi
     assert ds["screw_torque"].to_numpy()[1] == pytest.approx(r.screw_torque, rel=1e-12)
 
 
-def user_law_of_a_table(conditions):
-    """A friction curve somebody measured."""
-    return np.interp(conditions.film_parameter, [0.0, 0.5, 1.0, 2.0], [0.2, 0.1, 0.05, 0.02])
-
-
-def user_law_with_clip(conditions):
-    return np.clip(0.2 - 0.1 * conditions.film_parameter, 0.02, 0.2)
-
-
-def user_law_with_an_assignment(conditions):
-    mu = np.full(np.shape(conditions.film_parameter), 0.2)
-    mu[conditions.film_parameter > 1] = 0.02
-    return mu
-
-
-def user_law_in_the_house_style(conditions):
-    return 0.02 + 0.18 / (1 + conditions.film_parameter**2) ** 0.5
-
-
-def user_law_of_logarithms(conditions):
-    """Powers of what may be negative."""
-    x = np.log(conditions.film_parameter + 0.1)
-    return 0.1 - 0.01 * x + 0.002 * x**2 - 0.001 * x**3
-
-
-def constant_user_law(conditions):
-    return 0.1
-
-
-def user_law_with_a_method(conditions):
-    """Methods of arrays are not operators: nothing to record."""
-    return (0.2 - 0.1 * conditions.film_parameter).clip(0.02, 0.2)
-
-
-def user_law_with_the_root_of_a_square(conditions):
-    """The root of a square is an absolute value."""
-    return 0.1 + 0.01 * np.sqrt(np.log(conditions.film_parameter + 0.1) ** 2)
-
-
-SLOW = (
-    user_law_of_a_table,
-    user_law_with_clip,
-    user_law_with_an_assignment,
-    user_law_in_the_house_style,
-    user_law_of_logarithms,
-    constant_user_law,
-)
-
-
-@pytest.mark.parametrize(
-    "law",
-    [
-        user_law_with_a_method,
-        user_law_with_the_root_of_a_square,
-        *(pytest.param(law, marks=pytest.mark.slow) for law in SLOW),
-    ],
-)
-def test_laws_of_the_user(law, model, seed_screw, seed_oil, sweep):
-    """A law that can be recorded is; one that cannot runs on plain arrays. The numbers are the same."""
-    mine = dataclasses.replace(model, friction=law)
-    load, speed = np.linspace(10, 8000, 50), np.linspace(0, 100, 50)
-    ds = sweep(mine, axial_load=points(load), screw_speed=points(speed), block_size=7, threads=2)
-    r = mine(seed_screw, seed_oil, axial_load=load, screw_speed=speed)
-    for name in DEFAULT_OUTPUTS:
-        assert_same(ds[name].to_numpy(), EVERYTHING[name].read(r), sizes_of(r).get(name))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("block_size", "threads"), [(3, 1), (7, 2), (64, 3), (1000, 1), (119, 2)])
-def test_blocks_and_threads_change_no_bit(both, block_size, threads, sweep):
-    model, whole, _ = both
-    values = {name: points(v) for name, v in random_points().items()}
-    ds = sweep(model, outputs=list(EVERYTHING), block_size=block_size, threads=threads, **values)
-    xr.testing.assert_identical(ds, whole)
-
-
-def test_blocks_and_threads_change_no_bit_on_a_grid(model, sweep):
-    axes = {"axial_load": np.linspace(0, 4000, 7), "screw_speed": np.linspace(0, 100, 5), "viscosity": [0.05, 0.1]}
-    whole = sweep(model, **axes)
-    for block_size, threads in ((1, 2), (29, 1), (100, 4)):
-        xr.testing.assert_identical(sweep(model, block_size=block_size, threads=threads, **axes), whole)
-
-
 # -- labels ---------------------------------------------------------------------------------------
 
 
@@ -408,6 +325,7 @@ GOOD = {"axial_load": [1000.0, 2000.0], "screw_speed": [10.0]}
         ({"screw_conformity": [0.5, 0.52]}, r"screw\.screw_conformity: must be above 0\.5"),
         ({"axial_load": np.ones((2, 2))}, r"sweep\.axial_load: has several axes .*DataArray"),
         ({"loaded_balls": [50, 50.5, 51]}, r"screw\.loaded_balls: must be a whole number"),
+        ({"axial_load": xr.DataArray([1.0, 2.0], dims=(3,))}, r"has a dimension whose name is no text \(\(3,\)\)"),
         (
             {"axial_load": points([1.0, 2.0]), "screw_speed": points([1.0, 2.0, 3.0])},
             r"sweep\.point: different lengths",
@@ -481,12 +399,6 @@ def test_arrays_belong_into_the_sweep(seed_screw, seed_oil):
     screw = dataclasses.replace(seed_screw, lead=np.array([0.005, 0.01]))
     with pytest.raises(bs.InputError, match=r"screw\.lead: is an array · give it to the sweep: lead="):
         bs.sweep(bs.FrictionModel.corrected(), screw, seed_oil, axial_load=[1.0, 2.0], screw_speed=10.0)
-
-
-@pytest.mark.parametrize("values", [["4 kN"], [[1.0], [2.0, 3.0]], [1.0, None], "4 kN"])
-def test_what_is_no_number_is_refused(values, sweep):
-    with pytest.raises(bs.InputError, match=r"(sweep|operation)\.axial_load: must be "):
-        sweep(bs.FrictionModel.corrected(), axial_load=values, screw_speed=10.0)
 
 
 def test_a_single_output_may_be_a_plain_name(sweep):

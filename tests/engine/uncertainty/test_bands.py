@@ -145,17 +145,9 @@ def test_kept_samples_are_those_of_the_model(of_seed, seed_screw, seed_oil):
         assert drawn[name] == pytest.approx(getattr(r, name), rel=1e-9)
 
 
-def test_self_locking_share():
+def test_self_locking_share(seed_screw):
     """The holding torque is M_Sa − M_S: it locks where the friction drawn exceeds the torque of the load."""
-    screw = bs.BallScrew(
-        pitch_circle_diameter=0.04,
-        lead=0.0035,
-        ball_diameter=3.175e-3,
-        loaded_balls=56,
-        contact_angle=math.pi / 4,
-        screw_conformity=0.515,
-        nut_conformity=0.515,
-    )
+    screw = dataclasses.replace(seed_screw, lead=0.0035)
     model = dataclasses.replace(bs.FrictionModel.reference(), ball_force=ProportionalBallForce(0.02))
     found = band(
         model,
