@@ -152,16 +152,6 @@ def test_compiled_sweeps_over_the_oil_are_those_of_numpy_and_of_the_model():
     assert float(torque) == pytest.approx(float(MODEL(SCREW, oil, **at).screw_torque), rel=1e-9)
 
 
-@pytest.mark.slow
-def test_a_preloaded_nut_over_the_temperature():
-    screw = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=3000.0))
-    swept = bs.sweep(MODEL, screw, OIL, outputs=["screw_torque"], engine="numpy", **POINTS)["screw_torque"]
-    for temperature in POINTS["temperature"]:
-        one = MODEL(screw, OIL.at(temperature), axial_load=4e3, screw_speed=90.0).screw_torque
-        at = {"axial_load": 4e3, "screw_speed": 90.0, "temperature": temperature}
-        assert float(swept.sel(**at)) == pytest.approx(float(one), rel=1e-9)
-
-
 def test_derivatives_by_the_two_points():
     names = ["temperature", "kinematic_viscosity_40", "kinematic_viscosity_100"]
     at = {"axial_load": 4e3, "screw_speed": 60.0}
