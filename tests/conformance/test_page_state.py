@@ -9,8 +9,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import pytest
-
 import ballscrew
 
 #: Objects of modules that change, and why each is there. One more is one more place to look for the state of the page.
@@ -93,36 +91,6 @@ def modules() -> dict[str, str]:
     (folder,) = ballscrew.__path__
     page = Path(folder) / "faces" / "page"
     return {path.relative_to(page).as_posix(): path.read_text(encoding="utf-8") for path in sorted(page.rglob("*.js"))}
-
-
-@pytest.mark.parametrize(
-    ("source", "expected"),
-    [
-        ("let place = 0;\nexport let other;\nvar third;\n", ["place", "other", "third"]),
-        ("const one = 1;\nfunction f() {\n  let inner = 0;\n  return inner;\n}\n", []),
-        ("const f = () => {\n  let inner = 0;\n};\n", []),
-    ],
-)
-def test_variables_are_those_at_the_top(source, expected):
-    assert variables(source) == expected
-
-
-@pytest.mark.parametrize(
-    ("source", "expected"),
-    [
-        ("const known = new Map();\n", ["known"]),
-        ("const page = new Page();\nconst NARROW = 3;\n", ["page"]),
-        ("const PLACES = Object.entries(SCRIPTS).map(\n  (one) => new Place(one),\n);\n", ["PLACES"]),
-        ("const FORMAT = new Intl.NumberFormat(language);\nconst done = new Promise(() => {});\n", []),
-        ('const place = element("aside", {});\n', ["place"]),
-        ("const words = {};\nfunction fill(more) {\n  Object.assign(words, more);\n}\n", ["words"]),
-        ("const now = {\n  at: 0,\n};\nfunction f() {\n  now.at = 1;\n}\n", ["now"]),
-        ("const all = [];\nfunction f(one) {\n  all.push(one);\n  const same = { all: one.all };\n}\n", ["all"]),
-        ("const all = [];\nfunction f(one) {\n  one.all.push(1);\n  return all.at === one;\n}\n", []),
-    ],
-)
-def test_holders_are_what_changes(source, expected):
-    assert holders(source) == expected
 
 
 def test_modules_of_the_page_have_no_variables():

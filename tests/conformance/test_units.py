@@ -48,19 +48,13 @@ def assert_same(registry, result, unit, expected):
     np.testing.assert_allclose(quantity.to(unit).magnitude, expected, rtol=RELATIVE)
 
 
-@pytest.mark.parametrize("kind", ["SI", "other"])
+@pytest.mark.parametrize("kind", ["SI", "other", "arrays of other"])
 @for_each(equation=CONSISTENT)
 def test_the_result_has_the_unit_of_its_annotation(registry, equation, kind):
-    columns = {parameter: float(column[0]) for parameter, column in equation.sample(1).items()}
-    results = equation(*quantities(registry, equation, columns, other=kind == "other"))
-    for result, unit, expected in zip(results, equation.return_units, equation(*columns.values()), strict=True):
-        assert_same(registry, result, unit, expected)
-
-
-@for_each(equation=CONSISTENT)
-def test_arrays_of_quantities(registry, equation):
     columns = equation.sample(4)
-    results = equation(*quantities(registry, equation, columns, other=True))
+    if "arrays" not in kind:
+        columns = {parameter: float(column[0]) for parameter, column in columns.items()}
+    results = equation(*quantities(registry, equation, columns, other="other" in kind))
     for result, unit, expected in zip(results, equation.return_units, equation(*columns.values()), strict=True):
         assert_same(registry, result, unit, expected)
 

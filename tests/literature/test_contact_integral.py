@@ -8,16 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import ballscrew as bs
 from ballscrew.physics.equations import geometry
 from oracles.contact_integral import contact_integral
 from oracles.contact_patch import ContactPatch, hertz_ellipse
 from oracles.tractions import Coulomb
+from support.screws import of_row
 
 DATA = json.loads((Path(__file__).parents[1] / "data/contact_integral.json").read_text(encoding="utf-8"))
 POINTS = DATA["slip_power_of_one_contact"]["rows"]
 MODULUS = 2.26e11
-STEEL = bs.Material(young_modulus=MODULUS * (1 - 0.3**2), poisson_ratio=0.3)
 FRICTION = Coulomb(0.1)
 
 
@@ -27,19 +26,7 @@ def named(rows):
 
 def judged(row, **more):
     """The outcome for one row of the reference."""
-    screw = bs.BallScrew(
-        pitch_circle_diameter=row["pitch_circle_diameter"],
-        lead=row["lead"],
-        ball_diameter=row["ball_diameter"],
-        loaded_balls=1,
-        contact_angle=math.pi / 4,
-        screw_conformity=row["conformity"],
-        nut_conformity=row["conformity"],
-        ball_material=STEEL,
-        screw_material=STEEL,
-        nut_material=STEEL,
-    )
-    return contact_integral(screw, row["contact_load"], FRICTION, flank_pairs=row["contacts"] // 2, **more)
+    return contact_integral(of_row(row), row["contact_load"], FRICTION, flank_pairs=row["contacts"] // 2, **more)
 
 
 @pytest.mark.implausible

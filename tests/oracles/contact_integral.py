@@ -36,18 +36,13 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, fault_of, is_concrete, raise_if_any, shown
-from ballscrew.basis.quantities import AngularSpeed, Force, Info, Power, Quantity, Ratio, Speed, Torque, fields_of
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Power, Ratio, Speed, Torque, fields_of
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.laws.frame import Frame, helix_frame
 from oracles.contact_patch import ContactPatch, Ellipse, SlipField, hertz_ellipse
 from oracles.free_ball import ALONG, LATERAL, SPIN, BallResistances, FreeBall, Imbalance
-from oracles.tractions import (
-    Field,
-    TractionLaw,
-    on_both_races,
-)
+from oracles.tractions import Field, TractionLaw
 
 #: Blurs of the sliding speed in units of the slip of the rolling ball: a round of steps for each.
 BLURS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
@@ -75,13 +70,6 @@ NOT_FOUND = (
 )
 #: How far the drive torque's power may be from what is dissipated; beyond, the balance is none.
 LARGEST_POWER_ERROR = 1e-6
-
-CONTACT_LOAD = Quantity(
-    "contact_load", "N", Info("Q", "normal load of a contact", at_least=0, hint="give its magnitude")
-)
-SCREW_SPEED = Quantity(
-    "screw_speed", "rad/s", Info(r"\omega", "speed of the screw", "rpm", above=0, hint="any speed does for Coulomb")
-)
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -163,12 +151,11 @@ def contact_integral(
     ``resolution`` counts points across and along the path; ``check_resolution`` solves again on a
     finer grid.
 
-    Raises :class:`~ballscrew.basis.errors.InputError` for input that is not one number within its bounds.
-    Physics never raises: where the ball skids or outgrows its groove, the outcome says so.
+    Takes one screw and one number for each quantity. Physics never raises: where the ball skids or outgrows its
+    groove, the outcome says so.
     """
-    laws = on_both_races(traction)
+    laws = traction if isinstance(traction, tuple) else (traction, traction)
     resistances = BallResistances() if resistances is None else resistances
-    raise_if_any(_faults(screw, contact_load, flank_pairs, second_load, resistances, screw_speed, resolution))
     frame = helix_frame(screw) if frame is None else frame
     d_w, gamma = screw.ball_diameter, frame.curvature_ratio
     sides = (
@@ -328,42 +315,3 @@ def _without_balance(message: str, iterations: int = 0) -> ContactIntegral:
     """The outcome where there is no balance: no numbers."""
     no_number: dict[str, Any] = {name: math.nan for name in fields_of(ContactIntegral) if name != "resolution_error"}
     return ContactIntegral(**no_number, iterations=iterations, converged=False, message=message)
-
-
-def _faults(
-    screw: BallScrew,
-    contact_load: Force,
-    flank_pairs: int,
-    second_load: Force | None,
-    resistances: BallResistances,
-    screw_speed: AngularSpeed,
-    resolution: Any,
-) -> list[Fault]:
-    """What is wrong with the input: the solver takes one screw and one number for each quantity."""
-    one_at_a_time = "the contact integral solves one ball at a time: give one number"
-    faults: list[Fault] = []
-    materials = zip(("ball_material", "screw_material", "nut_material"), screw.materials, strict=True)
-    for section, part in (("screw", screw), *materials):
-        for name in fields_of(part):
-            value = getattr(part, name)
-            if not is_concrete(value):
-                faults.append(Fault(f"{section}.{name}", "must be one number", shown(value, "1"), one_at_a_time))
-    section = "contact_integral"
-    second = [] if second_load is None else [(dataclasses.replace(CONTACT_LOAD, name="second_load"), second_load)]
-    for quantity, value in ((CONTACT_LOAD, contact_load), *second, (SCREW_SPEED, screw_speed)):
-        if is_concrete(value):
-            faults += [fault for fault in [fault_of(section, quantity, value)] if fault is not None]
-        else:
-            faults.append(Fault(f"{section}.{quantity.name}", "must be one number", shown(value, "1"), one_at_a_time))
-    for name, value in resistances._asdict().items():
-        if not (is_concrete(value) and math.isfinite(value)):
-            faults.append(Fault(f"{section}.resistances.{name}", "must be one finite number", shown(value, "1")))
-    if flank_pairs not in (1, 2):
-        remedy = "give 1 for two contacts, 2 for the four of an oversize ball"
-        faults.append(Fault(f"{section}.flank_pairs", "must be 1 or 2", shown(flank_pairs, "1"), remedy))
-    if second and flank_pairs != 2:
-        faults.append(Fault(f"{section}.second_load", "needs two flank pairs", "", "give flank_pairs=2 with it"))
-    if len(resolution) != 2 or not all(isinstance(points, int) and points >= 2 for points in resolution):
-        remedy = "give the points across and along the path, such as (64, 16)"
-        faults.append(Fault(f"{section}.resolution", "must be two whole numbers, 2 or more", repr(resolution), remedy))
-    return faults

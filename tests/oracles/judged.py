@@ -1,13 +1,11 @@
 """Screws, laws and balls for the tests of the contact integral."""
 
-import math
-
-import ballscrew as bs
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.laws.frame import helix_frame
 from oracles.contact_patch import ContactPatch, hertz_ellipse
 from oracles.free_ball import BallResistances, FreeBall
 from oracles.tractions import Coulomb, Eyring, LimitingShear
+from support import screws
 
 OIL = {"viscosity": 0.1, "pressure_viscosity_coefficient": 2.2e-8, "film_thickness": 2e-7}
 LAWS = {
@@ -28,18 +26,8 @@ RESISTANCES = BallResistances(
 
 
 def screw(**changes):
-    return bs.BallScrew(
-        **{
-            "pitch_circle_diameter": 0.040,
-            "lead": 0.010,
-            "ball_diameter": 3.175e-3,
-            "loaded_balls": 56,
-            "contact_angle": math.pi / 4,
-            "screw_conformity": 0.53,
-            "nut_conformity": 0.54,
-        }
-        | changes
-    )
+    sizes = {"ball_diameter": 3.175e-3, "loaded_balls": 56, "screw_conformity": 0.53}
+    return screws.screw(**sizes | changes)
 
 
 def ball(part, load, law, pairs, resistances):

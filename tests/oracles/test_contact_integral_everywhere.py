@@ -12,11 +12,7 @@ from oracles.contact_integral import contact_integral
 from oracles.contact_patch import hertz_ellipse
 from oracles.free_ball import BallResistances
 from oracles.judged import HIGHEST_PRESSURE, screw
-from oracles.tractions import (
-    Coulomb,
-    Eyring,
-    LimitingShear,
-)
+from oracles.tractions import Coulomb, Eyring, LimitingShear
 
 pytestmark = pytest.mark.slow
 
@@ -115,31 +111,3 @@ def test_absurd_numbers_are_answered_in_words(law, load, speed, pairs):
         assert found.message != solver.NOT_FOUND
         assert found.converged == math.isfinite(found.screw_torque)
         assert found.converged or found.message
-
-
-# -- input ----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"contact_load": -1.0}, r"contact_integral\.contact_load: must not be negative"),
-        ({"contact_load": math.nan}, r"contact_integral\.contact_load: must be a finite number"),
-        ({"contact_load": np.ones(3)}, r"contact_integral\.contact_load: must be one number"),
-        ({"screw_speed": 0.0}, r"contact_integral\.screw_speed: must be positive"),
-        ({"flank_pairs": 3}, r"contact_integral\.flank_pairs: must be 1 or 2"),
-        ({"resolution": (64, 0)}, r"contact_integral\.resolution: must be two whole numbers"),
-        ({"resistances": BallResistances(math.inf)}, r"resistances\.screw_rolling_force: must be one finite number"),
-        ({"traction": 0.1}, r"contact_integral\.traction: must be a local law of traction"),
-        ({"traction": (Coulomb(0.1),) * 3}, r"contact_integral\.traction: must be a local law of traction"),
-    ],
-)
-def test_bad_input_is_refused_in_words(changes, message):
-    given = {"screw": screw(), "contact_load": 101.0, "traction": Coulomb(0.1)} | changes
-    with pytest.raises(bs.InputError, match=message):
-        contact_integral(**given)
-
-
-def test_one_screw_at_a_time():
-    with pytest.raises(bs.InputError, match=r"screw\.lead: must be one number .* one ball at a time"):
-        contact_integral(screw(lead=np.array([0.005, 0.010])), 101.0, Coulomb(0.1))

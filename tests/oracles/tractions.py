@@ -8,12 +8,11 @@ convex function (:mod:`oracles.contact_integral`).
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, Any, Protocol, TypeAlias
+from typing import Annotated, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
 from ballscrew.basis.quantities import Info, Length, Pressure, PressureCoefficient, Ratio, Viscosity
 from ballscrew.physics.equations import friction, rheology
 
@@ -49,15 +48,11 @@ class Coulomb:
     .. math:: \tau = \mu p
 
     Whatever the sliding speed is: torques do not depend on speed, slip power is proportional to it.
-    Raises :class:`~ballscrew.basis.errors.InputError` for a coefficient that is not positive.
     """
 
     friction_coefficient: Annotated[
         Ratio, Info(r"\mu", "friction coefficient", above=0, hint="boundary friction is 0.08 to 0.2")
     ]
-
-    def __post_init__(self) -> None:
-        raise_if_any(faults_of("traction", self))
 
     def stress(self, pressure: Field, slip: Field) -> Field:
         """Shear stress, Pa."""
@@ -91,9 +86,6 @@ class _Film:
         Info("h_c", "film thickness in the middle of the contact", "um", above=0, hint="films have 0.01 um to 1 um"),
     ]
 
-    def __post_init__(self) -> None:
-        raise_if_any(faults_of("traction", self))
-
     def _film_viscosity(self, pressure: Field) -> Field:
         exponent = rheology.roelands_exponent(self.viscosity, self.pressure_viscosity_coefficient)
         with np.errstate(over="ignore"):
@@ -108,7 +100,6 @@ class Eyring(_Film):
 
     Eyring1936, JohnsonTevaarwerk1977; :math:`\eta(p)` by Roelands1966. Isothermal, one film thickness
     all over the contact, no limit: at high pressure compare :class:`LimitingShear`.
-    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     eyring_stress: Annotated[
@@ -142,7 +133,7 @@ class LimitingShear(_Film):
     .. math:: \tau = \Lambda p \left(1 - \exp\left(-\frac{\eta(p) s}{\Lambda p h_c}\right)\right)
 
     BairWiner1979 without the elastic part; :math:`\eta(p)` by Roelands1966. Isothermal, one film
-    thickness all over the contact. Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
+    thickness all over the contact.
     """
 
     limiting_shear_coefficient: Annotated[
@@ -170,16 +161,3 @@ class LimitingShear(_Film):
         """Sliding speed at which a Newtonian film would reach the limiting stress."""
         limit = friction.limiting_shear_stress(pressure, self.limiting_shear_coefficient)
         return limit * self.film_thickness / self._film_viscosity(pressure)
-
-
-def on_both_races(law: Any) -> tuple[TractionLaw, TractionLaw]:
-    """The laws at screw and nut from one law for both or a pair.
-
-    Raises :class:`~ballscrew.basis.errors.InputError` for anything that is not a law.
-    """
-    pair: tuple[Any, ...] = law if isinstance(law, tuple) else (law, law)
-    fit = len(pair) == 2 and all(hasattr(side, name) for side in pair for name in ("stress", "slope", "potential"))
-    if not fit:
-        remedy = "give a law such as Coulomb(0.1), or a pair (screw, nut) of laws"
-        raise_if_any([Fault("contact_integral.traction", "must be a local law of traction", shown(law, "1"), remedy)])
-    return pair[0], pair[1]

@@ -11,9 +11,7 @@ from hypothesis import strategies as st
 
 import ballscrew as bs
 from ballscrew.physics.equations import friction, hertz, kinematics
-from ballscrew.physics.friction.validity import (
-    LARGEST_PURE_ROLLING_OFFSET,
-)
+from ballscrew.physics.friction.validity import LARGEST_PURE_ROLLING_OFFSET
 from support.strategies import (
     both_models,
     cases,
@@ -99,6 +97,7 @@ def over_the_ellipse(integrand, Y):
 
 
 @pytest.mark.slow
+@pytest.mark.equation("Olaru2005 §2.1 (13)", "Olaru2005 §2.2 (14)", "Olaru2005 §2.2 (15)")
 @given(fitting_cases(), both_models, floats(0.0, 0.999))
 def test_closed_form_is_the_integral(case, model, Y):
     """(15) is friction times pressure times height over the ellipse, (14); so is the traction that goes with it."""

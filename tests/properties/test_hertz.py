@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pytest
 from hypothesis import given
 
 from ballscrew.physics.equations import geometry, hertz
@@ -21,6 +22,7 @@ def sizes(k):
     return shape.major, shape.minor, c_d
 
 
+@pytest.mark.equation("Olaru2005 §2.1 (2)", "Olaru2005 §2.1 (3)")
 @given(screws())
 def test_rolling_radii_are_the_paper_s_fractions(screw):
     """R_x = ρ (1 ∓ γ): the fractions of Olaru2005 §2.1 (2) and (3) collapse to that."""
@@ -44,6 +46,7 @@ def test_rolling_radii_on_the_helix(screw):
     assert close(geometry.nut_rolling_radius(d_w, gamma), 1 / (2 / d_w - race))
 
 
+@pytest.mark.equation("Olaru2005 §2.1 (5)", "Olaru2005 §2.2 (16)")
 @given(screws(), floats(0.505, 0.56))
 def test_transverse_and_deformed_radius(screw, conformity):
     """Curvatures subtract across the groove, and the deformed surface has their mean."""

@@ -19,15 +19,10 @@ from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.laws import ball_chain, film, friction, hertz, inlet, rolling
 from ballscrew.physics.solvers.line_slip import line_slip
+from support.strategies import MODELS, corrected, reference
 
 pytestmark = pytest.mark.slow
 
-PRESETS = {
-    "olaru2005": bs.FrictionModel.olaru2005(),
-    "corrected": bs.FrictionModel.corrected(),
-    "reference": bs.FrictionModel.reference(),
-}
-corrected, reference = PRESETS["corrected"], PRESETS["reference"]
 #: Between them, all laws that are not in a preset.
 OTHERS = {
     "line slip": dataclasses.replace(
@@ -137,11 +132,11 @@ def differences(function, points, relative):
     return {output: (4 * narrow[output] - wide[output]) / 3 for output in wide}
 
 
-@pytest.mark.parametrize("name", PRESETS)
+@pytest.mark.parametrize("name", MODELS)
 def test_the_numbers_are_those_of_numpy(name):
     import jax
 
-    subject = subject_of(PRESETS[name])
+    subject = subject_of(MODELS[name])
     points = points_of(subject)
     expected = subject.at(points)
     with jax.enable_x64(True):
@@ -155,9 +150,9 @@ def test_the_numbers_are_those_of_numpy(name):
                 np.testing.assert_allclose(mine, numpys, rtol=1e-12, atol=rounding, err_msg=output)
 
 
-@pytest.mark.parametrize("name", PRESETS)
+@pytest.mark.parametrize("name", MODELS)
 def test_derivatives_are_those_of_differences(name):
-    subject = subject_of(PRESETS[name])
+    subject = subject_of(MODELS[name])
     points = points_of(subject, seed=1)
     outputs = ["screw_torque"] if name == "reference" else ["screw_torque", "efficiency"]
     function = outputs_of(subject, outputs)
@@ -180,7 +175,7 @@ def test_derivatives_are_those_of_differences(name):
 SOON_TRACED = ("olaru2005", "line slip")
 TRACED = [
     *SOON_TRACED,
-    *(pytest.param(name, marks=pytest.mark.long) for name in sorted((PRESETS | OTHERS).keys() - {*SOON_TRACED})),
+    *(pytest.param(name, marks=pytest.mark.long) for name in sorted((MODELS | OTHERS).keys() - {*SOON_TRACED})),
 ]
 
 
@@ -189,7 +184,7 @@ def test_each_input_alone_may_come_from_jax(name, monkeypatch):
     import jax
 
     monkeypatch.setattr(sys.modules[line_slip.__module__], "STEPS", 2)  # the others are the same again
-    subject = subject_of((PRESETS | OTHERS)[name])
+    subject = subject_of((MODELS | OTHERS)[name])
     values = inputs_of(subject)
     if subject.model.slip is not corrected.slip:  # long to trace: of each part, what the rest depends on least
         values = {name: value for name, value in values.items() if name in FAR_ENDS}
@@ -212,7 +207,7 @@ def test_where_the_ball_creeps_the_other_way_no_derivative_is_spoilt():
 
 
 def test_compiled_blocks_say_the_same(monkeypatch):
-    subject = subject_of(PRESETS["olaru2005"])
+    subject = subject_of(MODELS["olaru2005"])
     points = points_of(subject, seed=3)
     outputs, by = ["screw_torque", "efficiency"], ["axial_load", "ball_diameter", "friction.decay"]
     function = outputs_of(subject, outputs)
@@ -236,7 +231,7 @@ def test_compiled_blocks_say_the_same(monkeypatch):
 def test_forward_and_reverse_and_one_by_one_agree():
     import jax
 
-    subject = subject_of(PRESETS["olaru2005"])
+    subject = subject_of(MODELS["olaru2005"])
     points = points_of(subject, seed=4)
     function = outputs_of(subject, ["screw_torque"])
     _, partials = jax_value_and_partials(function, points, ["screw_torque"], ["axial_load", "screw_speed"])

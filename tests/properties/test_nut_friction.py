@@ -16,6 +16,7 @@ from ballscrew.physics.laws.friction import LoadSharing
 from ballscrew.physics.laws.nut_losses import Recirculation, Seals
 from ballscrew.physics.solvers.load_distribution import ball_loads
 from support.nut_cases import KINDS, nut_case
+from support.screws import screw
 from support.strategies import MODELS, RPM, constant_friction, reference, with_ball_force, without_losses_of_rolling
 
 OIL = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2e-8)
@@ -27,21 +28,6 @@ LOADS = np.array([0.0, 50.0, 1500.0, 4000.0, 9000.0])
 SPEED = 500 * RPM
 #: Sums over balls in another order.
 RELATIVE = 1e-12
-
-
-def screw(**changes):
-    return bs.BallScrew(
-        **{
-            "pitch_circle_diameter": 0.040,
-            "lead": 0.010,
-            "ball_diameter": 6e-3,
-            "loaded_balls": 60,
-            "contact_angle": math.pi / 4,
-            "screw_conformity": 0.54,
-            "nut_conformity": 0.54,
-        }
-        | changes
-    )
 
 
 SCREW = screw()

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from support import screws
 from support.strategies import MODELS
 
 OIL = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2e-8)
@@ -124,16 +125,8 @@ def test_the_temperature_of_the_state_is_that_of_the_oil():
 @pytest.mark.parametrize("set_at_rest", [False, True])
 def test_quadrants_between_elastic_bodies_are_those_of_the_model_at_either_load(set_at_rest):
     """A load of the other sign enters at the other end, and is carried by other balls: friction is another one."""
-    screw = bs.BallScrew(
-        pitch_circle_diameter=0.0258,
-        lead=0.005,
-        ball_diameter=3.175e-3,
-        loaded_balls=60,
-        contact_angle=math.pi / 4,
-        screw_conformity=0.54,
-        nut_conformity=0.54,
-        nut=bs.DoubleNut(preload=900.0, bodies=bs.Bodies(), set_at_rest=set_at_rest),
-    )
+    nut = bs.DoubleNut(preload=900.0, bodies=bs.Bodies(), set_at_rest=set_at_rest)
+    screw = screws.screw(pitch_circle_diameter=0.0258, lead=0.005, ball_diameter=3.175e-3, nut=nut)
     model, loads = bs.FrictionModel.reference(), np.array([-1500.0, 0.0, 1500.0])
     found = model(screw, OIL, axial_load=loads, screw_speed=10.0)
     assert found.screw_torque[0] < 0.99 * found.screw_torque[2]

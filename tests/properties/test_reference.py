@@ -2,16 +2,15 @@
 
 import dataclasses
 import itertools
-import math
 
 import numpy as np
 import pytest
 
-import ballscrew as bs
 from ballscrew.physics.equations import equilibrium, kinematics, slip
 from ballscrew.physics.friction.validity import REASONS
 from ballscrew.physics.laws.friction import LoadSharing
 from ballscrew.physics.solvers import ellipse_slip
+from support.screws import with_grooves
 from support.strategies import box, constant_friction, reference, without_losses_of_rolling
 
 SIZE = 10_000
@@ -336,15 +335,7 @@ def test_quadrants(r):
 
 
 def test_a_fine_lead_with_much_friction_locks_itself(seed_oil):
-    screw = bs.BallScrew(
-        pitch_circle_diameter=0.100,
-        lead=0.005,
-        ball_diameter=3e-3,
-        loaded_balls=200,
-        contact_angle=math.pi / 4,
-        screw_conformity=0.505,
-        nut_conformity=0.505,
-    )
+    screw = with_grooves(0.505, pitch_circle_diameter=0.100, lead=0.005, ball_diameter=3e-3, loaded_balls=200)
     rough = dataclasses.replace(reference, friction=constant_friction(1.0))
     locked, free = (model(screw, seed_oil, axial_load=20e3, screw_speed=0.0) for model in (rough, reference))
     assert locked.self_locking

@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.components.operating_state import NOTHING
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.laws.frame import bearing_frame
 from ballscrew.physics.laws.inlet import Inlet, ideal_inlet
-from support.strategies import RPM, Case, box, constant_friction, reference, torque_scale, with_ball_force
+from support.strategies import RPM, Case, box, constant_friction, corrected, reference, torque_scale, with_ball_force
 
 SIZE = 4000
 
@@ -48,12 +49,17 @@ def test_rest_is_the_limit_of_slow_motion(case, rpm):
     assert np.all(rest.friction_power == 0)
 
 
-def test_at_rest_the_oil_does_not_matter(case):
+def test_at_rest_the_oil_does_not_matter(case, model):
+    """As n → 0 there is no film: neither viscosity nor pressure–viscosity coefficient matters, to the last bit."""
     other = dataclasses.replace(case, oil=bs.Lubricant(0.37, 1.5e-8, thermal_conductivity=0.2))
-    first, second = (some(reference, screw_speed=0.0) for some in (case, other))
-    assert np.array_equal(first.screw_torque, second.screw_torque)
+    first, second = (some(model, screw_speed=0.0) for some in (case, other))
+    for name in ("screw_torque", "nut_torque", "drive_torque", "efficiency", "back_driving_efficiency"):
+        assert np.array_equal(getattr(first, name), getattr(second, name)), name
     for side in (first.screw, first.nut):
-        assert np.all(side.friction_coefficient == reference.friction.boundary_friction_coefficient)
+        assert np.all(side.minimum_film_thickness == 0)
+        assert np.all(side.film_parameter == 0)
+        assert np.all(side.hydrodynamic_rolling_force == 0)
+        assert np.all(side.friction_coefficient == model.friction.boundary_friction_coefficient)
 
 
 @pytest.mark.parametrize("axial_load", [0.0, 1e-300, 1e-30, 1e-10, 1e-3])
@@ -87,15 +93,17 @@ def test_efficiency_tends_to_a_number_as_a_skidding_ball_is_unloaded(case):
 # -- geometry --------------------------------------------------------------------------------------
 
 
-def with_lead(case, slope):
-    return case(reference, lead=slope * math.pi * case.screw.pitch_circle_diameter)
+def with_lead(case, slope, model=reference):
+    return case(model, lead=slope * math.pi * case.screw.pitch_circle_diameter)
 
 
-def test_without_lead_it_is_a_bearing(case):
+@pytest.mark.parametrize("model", [reference, corrected])
+def test_without_lead_it_is_a_bearing(case, model):
     """φ = 0: nothing of the helix is left, to the last bit."""
-    helix = with_lead(case, np.zeros(SIZE))
-    bearing = case(dataclasses.replace(reference, frame=bearing_frame), lead=np.zeros(SIZE))
-    assert np.array_equal(helix.screw_torque, bearing.screw_torque)
+    helix = with_lead(case, np.zeros(SIZE), model)
+    bearing = with_lead(case, np.zeros(SIZE), dataclasses.replace(model, frame=bearing_frame))
+    for name, output in known_outputs().items():
+        assert np.array_equal(output.read(helix), output.read(bearing), equal_nan=True), name
     assert np.all(helix.contributions["helix"] == 0)
     assert np.all(helix.lateral_force == 0)
     assert np.all(helix.screw.lateral_slip_speed == 0)

@@ -12,6 +12,7 @@ import ballscrew as bs
 from ballscrew.compiler.tracing.gradient import partials
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
+from ballscrew.evidence.papers.olaru2005.case import SCREW
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.equations import rigidity
 from ballscrew.physics.solvers.load_distribution import ball_loads, pair_load_deflection
@@ -253,17 +254,8 @@ INPUTS = ("load", "preload", "contact_angle", "ball_diameter")
 
 def outcome(kind, constant, load, preload, contact_angle, ball_diameter):
     """All that a rigid nut answers, by name."""
-    screw = bs.BallScrew(
-        pitch_circle_diameter=0.040,
-        lead=0.010,
-        ball_diameter=ball_diameter,
-        loaded_balls=56,
-        contact_angle=contact_angle,
-        screw_conformity=0.515,
-        nut_conformity=0.52,
-        ball_material=STEEL,
-        screw_material=STEEL,
-        nut_material=STEEL,
+    screw = dataclasses.replace(
+        SCREW, lead=0.010, ball_diameter=ball_diameter, contact_angle=contact_angle, nut_conformity=0.52
     )
     r = ball_loads(screw, nut_of(kind, preload), load, constant_contact_angle=constant)
     found = {f"{name} {i}": getattr(part, name) for i, part in enumerate(r.kinds) for name in OF_KIND}

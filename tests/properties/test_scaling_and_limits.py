@@ -13,7 +13,6 @@ from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.evidence.papers.olaru2005 import SCREW
 from ballscrew.physics.equations.rolling import elastic_resistance_moment
 from ballscrew.physics.friction.balls import MECHANISMS
-from ballscrew.physics.laws.frame import bearing_frame
 from ballscrew.physics.laws.inlet import Inlet
 from support.strategies import (
     RPM,
@@ -137,22 +136,6 @@ def test_viscosity_and_speed_count_as_their_product(case, model, factor):
 
 
 @pytest.mark.slow
-@given(cases, both_models, oils)
-def test_at_rest_the_oil_does_not_matter(case, model, other_oil):
-    """As n → 0 there is no film: neither viscosity nor pressure–viscosity coefficient matters, exactly."""
-    first, second = (
-        model(case.screw, oil, axial_load=case.axial_load, screw_speed=0.0) for oil in (case.oil, other_oil)
-    )
-    for name in (*TORQUES, "efficiency", "back_driving_efficiency"):
-        assert getattr(first, name) == getattr(second, name), name
-    for side in (first.screw, first.nut):
-        assert side.minimum_film_thickness == 0
-        assert side.film_parameter == 0
-        assert side.hydrodynamic_rolling_force == 0
-        assert side.friction_coefficient == 0.2
-
-
-@pytest.mark.slow
 @given(cases, both_models)
 def test_rest_is_the_limit_of_slow_motion(case, model):
     """Nothing jumps at rest but the drive torque, by the friction that turns with the motion."""
@@ -236,18 +219,6 @@ def test_skid_is_flagged_as_the_load_vanishes(screw, oil, model, rpm):
 
 
 # -- the helix ------------------------------------------------------------------------------------
-
-
-@pytest.mark.slow
-@given(cases)
-def test_helix_without_lead_is_a_bearing(case):
-    """φ → 0 gives the thrust bearing. An array keeps the constructor from refusing a lead of zero."""
-    screw = dataclasses.replace(case.screw, lead=np.zeros(1))
-    operation = {"axial_load": case.axial_load, "screw_speed": case.screw_speed}
-    helix = corrected(screw, case.oil, **operation)
-    bearing = dataclasses.replace(corrected, frame=bearing_frame)(screw, case.oil, **operation)
-    for name, output in OUTPUTS.items():
-        assert close(output.read(helix), output.read(bearing)), name
 
 
 @pytest.mark.slow

@@ -16,17 +16,10 @@ from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.inlet import Inlet
+from support.screws import screw
 
 MODEL = FrictionModel.reference()
-SCREW = bs.BallScrew(
-    pitch_circle_diameter=0.0414,
-    lead=0.01,
-    ball_diameter=0.00635,
-    loaded_balls=75,
-    contact_angle=np.pi / 4,
-    screw_conformity=0.54,
-    nut_conformity=0.54,
-)
+SCREW = screw(pitch_circle_diameter=0.0414, ball_diameter=0.00635, loaded_balls=75)
 CELSIUS = 273.15
 
 

@@ -1,23 +1,20 @@
 """Synthetic logs of a moving axis, from known truth: strokes of several speeds, quantised positions, coloured noise."""
 
-import math
-
 import numpy as np
 from scipy import integrate, signal
 
 import ballscrew as bs
+from support.screws import with_grooves
 
 TRUTH = {"mass": 95.0, "offset": -3.2, "coulomb_force": 20.0, "viscous_coefficient": 200.0}
 
 #: A small screw with the lead of the EMPS benchmark; the rest is guessed.
-SCREW_OF = bs.BallScrew(
+SCREW_OF = with_grooves(
+    0.53,
     pitch_circle_diameter=12.6e-3,
     lead=2.5e-3,
     ball_diameter=1.588e-3,
     loaded_balls=70,
-    contact_angle=math.pi / 4,
-    screw_conformity=0.53,
-    nut_conformity=0.53,
     nut=bs.DoubleNut(preload=150.0),
 )
 OIL = bs.Lubricant(viscosity=0.05)

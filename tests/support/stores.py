@@ -15,11 +15,7 @@ RPM = math.pi / 30
 MODEL = bs.FrictionModel.olaru2005()
 
 
-AXES = {
-    "axial_load": np.linspace(10, 4000, 7),
-    "screw_speed": np.linspace(1, 100, 9),
-    "viscosity": [0.05, 0.1, 0.3],
-}
+AXES = {"axial_load": np.linspace(10, 4000, 7), "screw_speed": np.linspace(1, 100, 9), "viscosity": [0.05, 0.1, 0.3]}
 
 
 SMALL = {"outputs": ["screw_torque", "efficiency", "valid"], "block_size": 12, **AXES}
@@ -34,24 +30,26 @@ def times(folder, names):
     return {name: (folder / name).stat().st_mtime_ns for name in names}
 
 
+#: A sweep in a process of its own: its store, a pause after each block, the sizes of its axes, and of its blocks.
 KILLED = """
 import sys, time
 import numpy as np
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+store, pause, *sizes, block_size = sys.argv[1:]
+ends = {"axial_load": (10, 4000), "screw_speed": (1, 100), "viscosity": (0.05, 0.5)}
+axes = {name: np.linspace(*ends[name], int(size)) for name, size in zip(ends, sizes)}
 bs.sweep(
-    bs.FrictionModel.olaru2005(), SCREW, OIL, outputs=["screw_torque", "efficiency", "valid"], to=sys.argv[1],
-    block_size=20_000, done=lambda finished, total: time.sleep(float(sys.argv[2])),
-    axial_load=np.linspace(10, 4000, 100), screw_speed=np.linspace(1, 100, 200), viscosity=np.linspace(0.05, 0.5, 100),
+    bs.FrictionModel.olaru2005(), SCREW, OIL, outputs=["screw_torque", "efficiency", "valid"], to=store,
+    block_size=int(block_size), done=lambda finished, total: time.sleep(float(pause)), **axes,
 )
 """
+KILLED_SIZES, KILLED_BLOCK_SIZE, KILLED_BLOCKS = (100, 200, 100), 20_000, 100
 
 
-KILLED_BLOCKS = 100
-
-
-def started(path, pause):
-    return subprocess.Popen([sys.executable, "-c", KILLED, str(path), str(pause)], stderr=subprocess.PIPE)
+def started(path, pause, sizes=KILLED_SIZES, block_size=KILLED_BLOCK_SIZE):
+    given = map(str, (path, pause, *sizes, block_size))
+    return subprocess.Popen([sys.executable, "-c", KILLED, *given], stderr=subprocess.PIPE, text=True)
 
 
 def blocks_of(path):

@@ -87,3 +87,11 @@ def _operating_points(
         load = np.linspace(*loads, steps)[np.minimum(point // -(-points // steps), steps - 1)]
         speed = np.geomspace(*speeds, -(-points // steps))[point % -(-points // steps)]
     return load, speed * RPM, sign
+
+
+def autoregressive(rows: int, correlation: float, seed: int = 0) -> NDArray[np.floating]:
+    """A series whose neighbours are alike: x[i] = φ x[i-1] + e[i]."""
+    found = np.random.default_rng(seed).standard_normal(rows)
+    for i in range(1, rows):
+        found[i] += correlation * found[i - 1]
+    return found

@@ -58,12 +58,6 @@ def test_a_bearing_takes_the_load_and_the_speed_of_the_screw(duties):
     assert whole.energy_by["fixed bearing"] == pytest.approx(lost, rel=1e-9)
 
 
-def test_energy_closes_with_the_bearings(duties):
-    _, whole = duties
-    drawn = whole.energy_drawn - whole.energy_returned
-    assert drawn == pytest.approx(whole.energy_lost + whole.energy_of_process + whole.energy_stored, rel=1e-9)
-
-
 def test_guides_of_the_axis_are_the_element(duties):
     bare, _ = duties
     weight = MASS * GRAVITY * math.cos(AXIS.inclination)

@@ -10,6 +10,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.axis.supports.bearing import bearing_model
 from ballscrew.physics.laws.frame import helix_frame
+from support.screws import with_grooves
 from support.strategies import MODELS
 
 OIL = bs.Lubricant(viscosity=0.06, density=870.0)
@@ -22,15 +23,9 @@ LOADS = np.array([-6000.0, -800.0, 0.0, 800.0, 6000.0])
 
 def screw_of(bearing, lead, scale=1.0):
     """A ball screw of the sizes of a bearing; the circle of its balls grows by the scale, and the balls with it."""
-    return bs.BallScrew(
-        pitch_circle_diameter=scale * bearing.mean_diameter,
-        lead=lead,
-        ball_diameter=bearing.balls_size,
-        loaded_balls=bearing.balls_of_a_row,
-        contact_angle=bearing.contact_angle,
-        screw_conformity=0.52,
-        nut_conformity=0.52,
-    )
+    balls = {"ball_diameter": bearing.balls_size, "loaded_balls": bearing.balls_of_a_row}
+    d_m, angle = scale * bearing.mean_diameter, bearing.contact_angle
+    return with_grooves(0.52, pitch_circle_diameter=d_m, lead=lead, contact_angle=angle, **balls)
 
 
 def test_a_row_is_the_core_in_the_bearing_frame():

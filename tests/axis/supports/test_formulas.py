@@ -31,16 +31,6 @@ def test_centrifugal_load_in_the_units_of_the_catalogue():
     assert found == pytest.approx(1.90e-12 * 61.0**4 * 20000.0**2, rel=1e-14)
 
 
-def test_factors_in_the_units_of_the_catalogue():
-    heat = 1 / (1 + 1.84e-9 * (SPEED * MEAN) ** 1.28 * VISCOSITY**0.64)
-    film = math.exp(-3e-8 * VISCOSITY * SPEED * (BORE + OUTSIDE) * math.sqrt(4.4 / (2 * (OUTSIDE - BORE))))
-    share = math.exp(-2.6e-8 * (SPEED * VISCOSITY) ** 1.4 * MEAN)
-    assert formulas.inlet_heating_factor(OIL, OMEGA, 1e-3 * MEAN) == pytest.approx(heat, rel=1e-14)
-    found = formulas.bearing_replenishment_factor(OIL, OMEGA, 1e-3 * BORE, 1e-3 * OUTSIDE, 3e-8, 4.4)
-    assert found == pytest.approx(film, rel=1e-13)
-    assert formulas.bearing_boundary_share(OIL, OMEGA, 1e-3 * MEAN) == pytest.approx(share, rel=1e-11)
-
-
 def test_at_rest_nothing_is_taken_off_and_the_boundary_film_carries_all():
     assert formulas.inlet_heating_factor(OIL, 0.0, 0.04) == 1
     assert formulas.bearing_replenishment_factor(OIL, 0.0, 0.025, 0.052, 3e-8, 4.4) == 1

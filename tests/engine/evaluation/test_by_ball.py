@@ -205,20 +205,6 @@ def test_a_store_goes_on(tmp_path):
         bs.sweep(OLARU, screw_with(NUTS["double"], balls=13), OIL, to=place, engine="compiled", **given)
 
 
-@pytest.mark.compiles
-def test_monte_carlo_is_compiled():
-    """Its samples are the same, whatever the engine."""
-    given = {"distributions": {"nut.preload": bs.Normal(4000.0, 400.0)}, "samples": 300, "seed": 1}
-    at = {"axial_load": 3e3, "screw_speed": 40.0, "outputs": ["screw_torque"]}
-    found, expected = (
-        bs.monte_carlo(OLARU, screw_with(NUTS["double"]), OIL, engine=engine, **given, **at)
-        for engine in ("compiled", "numpy")
-    )
-    assert (found.engine, expected.engine) == ("compiled", "numpy")
-    assert np.allclose(found.screw_torque_quantiles, expected.screw_torque_quantiles, rtol=1e-3, atol=0)
-    assert np.allclose(found.screw_torque_mean, expected.screw_torque_mean, rtol=1e-12, atol=0)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["double", "oversize"])
 def test_sizes_that_vary_at_one_preload(kind):

@@ -10,12 +10,8 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.derivatives import derivatives
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from support.strategies import MODELS
 
-MODELS = {
-    "olaru2005": bs.FrictionModel.olaru2005(),
-    "corrected": bs.FrictionModel.corrected(),
-    "reference": bs.FrictionModel.reference(),
-}
 #: Twelve inputs of every kind, over ranges in which points are valid.
 RANGES = {
     "axial_load": (500, 4000),

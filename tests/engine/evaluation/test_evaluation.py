@@ -171,12 +171,12 @@ def test_grids_are_the_points_they_are_made_of(name):
             assert np.all(off <= 1e-12 * size[finite]), output
 
 
-@pytest.mark.compiles
+@pytest.mark.parametrize("engine", ["numpy", pytest.param("compiled", marks=pytest.mark.compiles)])
 @pytest.mark.parametrize("how", [{"block_size": 1}, {"block_size": 100}, {"block_size": 5000, "threads": 2}])
-def test_any_blocks_of_a_grid_give_the_same_bits(how):
+def test_any_blocks_of_a_grid_give_the_same_bits(how, engine):
     plan = Plan.of(Configuration(MODELS["olaru2005"], SCREW, OIL), None, grid(7, 11, 30))
-    whole = filled(plan, "compiled", threads=1)
-    for output, values in filled(plan, "compiled", **how).items():
+    whole = filled(plan, engine, threads=1)
+    for output, values in filled(plan, engine, **how).items():
         assert np.array_equal(values, whole[output], equal_nan=True), output
 
 
@@ -264,7 +264,18 @@ def test_the_number_of_balls_can_be_varied():
     assert np.allclose(found["screw_torque"], expected["screw_torque"], rtol=1e-12, equal_nan=True)
 
 
-@pytest.mark.parametrize("values", ["100", [True, False], np.ma.masked_array([1.0, 2.0], [0, 1]), [1 + 2j]])
+@pytest.mark.parametrize(
+    "values",
+    [
+        "100",
+        ["4 kN"],
+        [[1.0], [2.0, 3.0]],
+        [1.0, None],
+        [True, False],
+        np.ma.masked_array([1.0, 2.0], [0, 1]),
+        [1 + 2j],
+    ],
+)
 def test_what_is_no_number_is_refused(values):
     with pytest.raises(bs.InputError, match="must be numbers in SI"):
         bs.sweep(MODELS["olaru2005"], SCREW, OIL, axial_load=values, screw_speed=1.0)

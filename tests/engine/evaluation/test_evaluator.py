@@ -5,7 +5,6 @@ import pickle
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
-import pint
 import pytest
 
 import ballscrew as bs
@@ -203,15 +202,6 @@ def test_what_it_cannot_be_called_with(values, named, message):
     f = bs.evaluator(MODELS["olaru2005"], SCREW, OIL, engine="numpy")
     with pytest.raises(bs.InputError, match=message):
         f(*values, **named)
-
-
-def test_quantities_with_units():
-    f = bs.evaluator(MODELS["olaru2005"], SCREW, OIL, engine="numpy")
-    unit = pint.UnitRegistry()
-    found = f([1.0, 2.0] * unit.kN, 60 * unit.rad / unit.s)["screw_torque"]
-    assert np.array_equal(found, f([1000.0, 2000.0], 60.0)["screw_torque"])
-    with pytest.raises(bs.InputError, match=r"evaluator\.axial_load: wrong unit"):
-        f(1.0 * unit.mm, 60.0)
 
 
 @pytest.mark.slow

@@ -10,7 +10,25 @@ from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.physics.laws.traits import law_traits
 from support.structures import forget_structures
 
+
+def with_an_assignment(conditions):
+    mu = np.full(np.shape(conditions.film_parameter), 0.2)
+    mu[conditions.film_parameter > 1] = 0.02
+    return mu
+
+
+def of_logarithms(conditions):
+    """Powers of what may be negative."""
+    x = np.log(conditions.film_parameter + 0.1)
+    return 0.1 - 0.01 * x + 0.002 * x**2 - 0.001 * x**3
+
+
 LAWS = {
+    "an assignment": with_an_assignment,
+    "powers of logarithms": of_logarithms,
+    "the house style": lambda c: 0.02 + 0.18 / (1 + c.film_parameter**2) ** 0.5,
+    "a limit": lambda c: np.clip(0.2 - 0.1 * c.film_parameter, 0.02, 0.2),
+    "a constant": lambda c: 0.1,
     "the root of a square": lambda c: 0.1 * np.sqrt((c.film_parameter - 1) ** 2),
     "the fourth root of a fourth power": lambda c: ((c.film_parameter - 1) ** 4) ** 0.25,
     "the square of a root": lambda c: 0.02 + 0.1 * np.sqrt(c.film_parameter) ** 2,
@@ -28,7 +46,7 @@ LAWS = {
 @pytest.mark.parametrize("name", LAWS)
 def test_the_same_as_plain_arrays(name, model, seed_screw, seed_oil):
     changed = dataclasses.replace(model, friction=LAWS[name])
-    loads, speeds = np.array([1000.0, 2000.0, 4000.0]), np.array([10.0, 50.0, 100.0])
+    loads, speeds = np.array([10.0, 1000.0, 2000.0, 8000.0]), np.array([1.0, 10.0, 50.0, 100.0])
     names = ["screw_friction_coefficient", "nut_friction_coefficient", "screw_torque"]
     ds = bs.sweep(changed, seed_screw, seed_oil, outputs=names, axial_load=loads, screw_speed=speeds)
     plain = changed(seed_screw, seed_oil, axial_load=loads[:, None], screw_speed=speeds)

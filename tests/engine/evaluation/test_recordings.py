@@ -177,12 +177,6 @@ def test_zeros_of_both_signs_integers_and_nan_are_told_apart():
     assert key_of(float("nan")) == key_of(float("nan"))
 
 
-def test_a_fixed_value_of_the_sweep_counts(recorded):
-    torques = [float(swept(MODELS["corrected"], lead=lead)["screw_torque"][1, 2]) for lead in (0.005, 0.0051, 0.005)]
-    assert torques[0] == torques[2] != torques[1]
-    assert len(recorded) == 2
-
-
 def closure(share):
     def snare_resistance(conditions):
         return share[0] * rolling.snare_resistance(conditions)

@@ -78,21 +78,6 @@ def test_no_bit_depends_on_which_inputs_are_arrays():
         assert np.array_equal(values, found[2][name], equal_nan=True), name
 
 
-def test_no_bit_depends_on_blocks_and_threads():
-    subject = case_of("single", "reference")
-    kernel_of(subject)
-    points = {"axial_load": xr.DataArray(np.linspace(-9e3, 9e3, 20_001), dims="point"), "screw_speed": 30.0}
-    evaluation = Evaluation.of(Plan.of(subject, ["screw_torque"], points), shared=True)
-    assert evaluation.reason == "a kernel for all numbers of such a screw is there"
-    found = []
-    for how in ({"threads": 1}, {"threads": 2, "block_size": 1001}, {"threads": 3, "block_size": 64}):
-        results = evaluation.empty(20_001)
-        evaluation.fill(results, slice(0, 20_001), **how)
-        found.append(np.array(results["screw_torque"]))
-    assert np.array_equal(found[0], found[1])
-    assert np.array_equal(found[0], found[2])
-
-
 @pytest.mark.parametrize("nut", list(ELASTIC))
 def test_balls_that_differ_equal_the_model_in_this_process_and_from_disk(nut, monkeypatch):
     screw = dataclasses.replace(bs.catalogue()[ROW].screw(nut=ELASTIC[nut]), loaded_balls=10)

@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import dataclasses
 import json
 import os
 import signal
@@ -16,6 +17,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.engine.sweeps import cluster as clusters
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from support.stores import files
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 distributed = pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
@@ -42,10 +44,6 @@ def sweep(to, model=bs.FrictionModel.olaru2005, **given):
     return bs.sweep(model(), SCREW, OIL, to=to, **(SWEPT | given))
 
 
-def files(folder):
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-
-
 def until(true, what):
     end = time.monotonic() + PATIENCE
     while not true():
@@ -61,17 +59,8 @@ class Cluster:
         self.file = folder / "scheduler.json"
         self.processes = []
         self.workers = []
-        self._start(
-            "scheduler",
-            "--host",
-            "127.0.0.1",
-            "--port",
-            "0",
-            "--no-dashboard",
-            "--dashboard-address",
-            ":0",
-            "--no-show",
-        )
+        options = "--host 127.0.0.1 --port 0 --no-dashboard --dashboard-address :0 --no-show"
+        self._start("scheduler", *options.split())
         until(lambda: self._written_address() is not None, "no scheduler")
         self.address = self._written_address()
 
@@ -176,8 +165,6 @@ def test_stopped_there_and_gone_on_with_here(client, whole, tmp_path):
 
 
 def test_a_model_of_the_user_goes_to_the_workers(client, tmp_path):
-    import dataclasses
-
     def friction(conditions):
         return 0.02 + 0.18 / (1 + conditions.film_parameter**2) ** 0.5
 
@@ -193,7 +180,6 @@ def test_a_model_of_the_user_goes_to_the_workers(client, tmp_path):
 
 def test_a_model_that_cannot_be_compared_goes_to_the_workers(client, tmp_path):
     """Only its package is compared there: the model comes with the store."""
-    import dataclasses
 
     def friction(conditions):
         return np.interp(conditions.film_parameter, [0.0, 3.0], [0.2, eval("0.02")])
@@ -208,8 +194,6 @@ def test_a_model_that_cannot_be_compared_goes_to_the_workers(client, tmp_path):
 
 
 def test_a_fault_in_a_law_of_the_user_is_raised(client, tmp_path):
-    import dataclasses
-
     def faulty(conditions):
         raise ZeroDivisionError("mine")
 

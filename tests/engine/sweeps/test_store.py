@@ -1,5 +1,6 @@
 """Sweeps on disk: the same dataset as in memory, and the same files whatever stopped the work."""
 
+import dataclasses
 import errno
 import math
 import os
@@ -20,7 +21,7 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.sweeps.store import UnfinishedSweepError
 from ballscrew.engine.sweeps.store_plan import BLOCK_BYTES, Blocks
-from support.stores import AXES, KILLED, KILLED_BLOCKS, MODEL, blocks_of, files, started, stop_at, times
+from support.stores import AXES, KILLED_BLOCKS, MODEL, blocks_of, files, started, stop_at, times
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
@@ -154,7 +155,7 @@ def test_a_block_has_bounded_size_and_is_not_tiny(shape, seed_screw, seed_oil):
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")
-def test_killed_in_the_middle_it_goes_on_where_it_was(tmp_path, monkeypatch):
+def test_killed_in_the_middle_it_goes_on_where_it_was(tmp_path):
     path = tmp_path / "map.zarr"
     for least in (20, 60):
         process = started(path, 0.01)
@@ -173,8 +174,7 @@ def test_killed_in_the_middle_it_goes_on_where_it_was(tmp_path, monkeypatch):
     _, said = process.communicate(timeout=600)
     assert process.returncode == 0, said
     assert (times(path, chunks), {name: (path / name).read_bytes() for name in chunks}) == before
-    monkeypatch.setattr(sys, "argv", ["", str(tmp_path / "whole.zarr"), "0"])
-    exec(KILLED, {})
+    started(tmp_path / "whole.zarr", 0).communicate(timeout=600)
     assert files(path) == files(tmp_path / "whole.zarr")
 
 
@@ -240,17 +240,7 @@ def test_an_interrupt_keeps_the_block_that_is_being_written(swept, tmp_path):
     assert len(blocks_of(path)) == 4
 
 
-def test_an_unfinished_store_is_not_taken_for_a_finished_one(swept, tmp_path, monkeypatch):
-    stop_at(4, KeyboardInterrupt(), monkeypatch)
-    with pytest.raises(KeyboardInterrupt):
-        swept(tmp_path / "map.zarr")
-    with pytest.raises(FileNotFoundError):
-        xr.open_zarr(tmp_path / "map.zarr", chunks=None)
-
-
 def test_a_fault_in_a_law_of_the_user_is_raised(seed_screw, seed_oil, tmp_path):
-    import dataclasses
-
     def faulty(conditions):
         raise ZeroDivisionError("mine")
 

@@ -2,7 +2,6 @@
 
 import random
 import signal
-import subprocess
 import sys
 import time
 import zlib
@@ -11,27 +10,17 @@ from pathlib import Path
 import pytest
 
 import ballscrew as bs
+from support.stores import started
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 pytestmark = [pytest.mark.long, pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")]
 
 POINTS = 20_000_000
 KILLS = 10
-SWEEP = """
-import sys
-import numpy as np
-import ballscrew as bs
-from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-bs.sweep(
-    bs.FrictionModel.olaru2005(), SCREW, OIL, outputs=["screw_torque", "efficiency", "valid"], to=sys.argv[1],
-    block_size=40_000,
-    axial_load=np.linspace(10, 4000, 200), screw_speed=np.linspace(1, 100, 500), viscosity=np.linspace(0.05, 0.5, 200),
-)
-"""
 
 
-def started(path):
-    return subprocess.Popen([sys.executable, "-c", SWEEP, str(path)], stderr=subprocess.PIPE, text=True)
+def started_large(path):
+    return started(path, 0, (200, 500, 200), 40_000)
 
 
 def wait_for_a_block(process, path, before=0):
@@ -42,7 +31,7 @@ def wait_for_a_block(process, path, before=0):
 def seconds_of(path):
     """Seconds to the first new block of a run, and from there to its end; and what it logged."""
     start, before = time.perf_counter(), finished(path)
-    process = started(path)
+    process = started_large(path)
     wait_for_a_block(process, path, before)
     begun = time.perf_counter()
     _, said = process.communicate()
@@ -64,7 +53,7 @@ def test_killed_ten_times_the_store_is_the_same(tmp_path, capsys):
     times = random.Random(2005)
     kept, logged = [], ""
     for kill in range(KILLS):
-        process = started(path)
+        process = started_large(path)
         if kill % 5:  # while blocks are written; the others as the process starts
             wait_for_a_block(process, path, finished(path))
             time.sleep(times.uniform(0, filling / KILLS))

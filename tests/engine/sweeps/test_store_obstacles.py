@@ -6,25 +6,9 @@ import os
 import pytest
 
 import ballscrew as bs
-from support.stores import files, stop_at, times
+from support.stores import files, times
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
-
-
-@pytest.fixture
-def complete(swept, tmp_path):
-    swept(tmp_path / "map.zarr")
-    return tmp_path / "map.zarr"
-
-
-@pytest.fixture
-def unfinished(swept, tmp_path):
-    """A store with 12 of its 21 blocks."""
-    with pytest.MonkeyPatch.context() as patch:
-        stop_at(12, KeyboardInterrupt(), patch)
-        with pytest.raises(KeyboardInterrupt):
-            swept(tmp_path / "map.zarr")
-    return tmp_path / "map.zarr"
 
 
 def line_of(action, *arguments):

@@ -1,5 +1,6 @@
 """A store that is there already: opened, refused, checked, locked."""
 
+import dataclasses
 import errno
 import json
 import os
@@ -19,20 +20,12 @@ from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.sweeps import store
 from ballscrew.engine.sweeps.store import Store
 from ballscrew.engine.sweeps.store_check import count_false
-from support.stores import AXES, MODEL, SMALL, blocks_of, files, started, stop_at, times
+from support.stores import AXES, MODEL, SMALL, blocks_of, files, started, stop_at
 
 pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
 
 # -- what is there already ------------------------------------------------------------------------
-
-
-def test_a_complete_store_is_opened_at_once(swept, whole, tmp_path, monkeypatch):
-    path = tmp_path / "whole.zarr"
-    before = times(path, whole)
-    monkeypatch.setattr(Evaluation, "fill", lambda *_, **__: pytest.fail("computed again"))
-    xr.testing.assert_identical(swept(path).load(), xr.open_zarr(path, chunks=None).load())
-    assert times(path, whole) == before
 
 
 @pytest.mark.slow
@@ -58,8 +51,6 @@ def test_another_sweep_is_refused_and_said(other, said, swept, tmp_path):
 
 @pytest.mark.usefixtures("whole")
 def test_other_fixed_inputs_laws_and_versions_are_refused(seed_screw, seed_oil, tmp_path, monkeypatch):
-    import dataclasses
-
     path = tmp_path / "whole.zarr"
     screw = dataclasses.replace(seed_screw, nut_conformity=0.53)
     with pytest.raises(bs.InputError, match=r"screw nut conformity 0\.515, not 0\.53"):
@@ -79,8 +70,6 @@ def test_other_fixed_inputs_laws_and_versions_are_refused(seed_screw, seed_oil, 
 
 
 def test_the_code_of_a_law_counts(seed_screw, seed_oil, tmp_path):
-    import dataclasses
-
     def of(number):
         def friction(conditions):
             return number + 0.02 / (1 + conditions.film_parameter**2)
@@ -92,52 +81,14 @@ def test_the_code_of_a_law_counts(seed_screw, seed_oil, tmp_path):
         bs.sweep(of(0.2), seed_screw, seed_oil, to=tmp_path / "m.zarr", **SMALL)
 
 
-def test_the_values_of_a_law_count(seed_screw, seed_oil, tmp_path):
-    """Of a law that cannot be recorded, which has the same code and the same name."""
-    import dataclasses
-
-    class Tabulated:
-        def __init__(self, scale):
-            self.table = scale * np.array([0.2, 0.1, 0.02])
-
-        def __call__(self, conditions):
-            return np.interp(conditions.film_parameter, [0.0, 1.0, 3.0], self.table)
-
-    def swept(scale):
-        mine = dataclasses.replace(MODEL, friction=Tabulated(scale))
-        return bs.sweep(mine, seed_screw, seed_oil, to=tmp_path / "m.zarr", **SMALL)
-
-    swept(1.0)
-    swept(1.0)
-    with pytest.raises(bs.InputError, match=r"holds another sweep \(formulas \w+…, not \w+…\)"):
-        swept(1.1)
-
-
-@pytest.mark.slow
-def test_an_equation_of_the_package_counts(seed_screw, seed_oil, tmp_path, monkeypatch):
-    """Of a nut whose balls differ, which is not recorded: one equation is changed under the same version."""
-    from ballscrew.physics.equations import film
-
-    def swept():
-        points = {"axial_load": [500.0, 1000.0], "screw_speed": 30.0}
-        nut = bs.SingleNut(bodies=bs.Bodies())
-        return bs.sweep(bs.FrictionModel.corrected(), seed_screw, seed_oil, nut=nut, to=tmp_path / "m.zarr", **points)
-
-    swept()
-    swept()
-    thickness = film.minimum_film_thickness
-    monkeypatch.setattr(film, "minimum_film_thickness", lambda *given: 1.1 * thickness(*given))
-    with pytest.raises(bs.InputError, match=r"holds another sweep \(formulas \w+…, not \w+…\)"):
-        swept()
-
-
 def test_what_is_no_store_is_not_touched(swept, tmp_path):
-    file, folder = tmp_path / "a.zarr", tmp_path / "b.zarr"
+    file, folder, other = (tmp_path / f"{name}.zarr" for name in "abc")
+    xr.Dataset({"a": ("x", [1.0, 2.0])}).to_zarr(other, zarr_format=3, consolidated=False)
     file.write_text("mine", encoding="utf-8")
     folder.mkdir()
     (folder / "thesis.tex").write_text("mine", encoding="utf-8")
     before = files(tmp_path)
-    for path in (file, folder):
+    for path in (file, folder, other):
         with pytest.raises(bs.InputError, match=r"sweep\.to: is there and is not the store of a sweep"):
             swept(path)
     assert files(tmp_path) == before
@@ -145,15 +96,6 @@ def test_what_is_no_store_is_not_touched(swept, tmp_path):
         swept(file / "map.zarr")
     with pytest.raises(bs.InputError, match=r"is not in a file system .*give the path of a folder"):
         swept("s3://bucket/map.zarr")
-
-
-def test_a_zarr_of_others_is_not_touched(swept, tmp_path):
-    path = tmp_path / "other.zarr"
-    xr.Dataset({"a": ("x", [1.0, 2.0])}).to_zarr(path, zarr_format=3, consolidated=False)
-    before = files(path)
-    with pytest.raises(bs.InputError, match="is not the store of a sweep"):
-        swept(path)
-    assert files(path) == before
 
 
 def test_an_empty_folder_will_do(swept, whole, tmp_path):

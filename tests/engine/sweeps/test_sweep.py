@@ -18,6 +18,12 @@ EVERYTHING = known_outputs()
 RNG_SEED = 36
 
 
+@pytest.fixture(scope="module")
+def sweep(seed_screw, seed_oil):
+    """Sweeps a model of the paper's screw."""
+    return lambda model, **how: bs.sweep(model, seed_screw, seed_oil, **how)
+
+
 def points(values):
     return xr.DataArray(values, dims="point")
 
@@ -87,13 +93,11 @@ def assert_same(found, expected, size=None, relative=1e-12):
 
 
 @pytest.fixture(scope="module", params=["olaru2005", "corrected", "reference"])
-def both(request, seed_screw, seed_oil):
+def both(request, seed_screw, seed_oil, sweep):
     """Everything a sweep can say at random points, and what the model says there."""
     model = getattr(bs.FrictionModel, request.param)()
     values = random_points()
-    ds = bs.sweep(
-        model, seed_screw, seed_oil, outputs=list(EVERYTHING), **{name: points(v) for name, v in values.items()}
-    )
+    ds = sweep(model, outputs=list(EVERYTHING), **{name: points(v) for name, v in values.items()})
     return model, ds, plain(model, seed_screw, seed_oil, values)
 
 
@@ -120,59 +124,6 @@ def test_masks_are_masks(both):
     _, ds, r = both
     assert ds["valid"].dtype == bool
     assert np.array_equal(ds["valid"], np.broadcast_to(r.valid, ds["valid"].shape))
-
-
-def test_design_and_model_fields(seed_screw, seed_oil):
-    """Fields of screw, oil and model and coefficients of laws land where they belong."""
-    model = bs.FrictionModel.corrected()
-    ds = bs.sweep(
-        model,
-        seed_screw,
-        seed_oil,
-        axial_load=4000.0,
-        screw_speed=600 * RPM,
-        ball_diameter=[3.0e-3, 3.175e-3],
-        contact_angle=[0.7, 0.8, 0.9],
-        ball_to_ball_force=[0.0, 0.02],
-        **{"friction.boundary_friction_coefficient": [0.1, 0.2], "friction.decay": 2.32, "film.speed_exponent": [0.66]},
-    )
-    assert dict(ds.sizes) == {
-        "ball_diameter": 2,
-        "contact_angle": 3,
-        "ball_to_ball_force": 2,
-        "friction.boundary_friction_coefficient": 2,
-        "film.speed_exponent": 1,
-    }
-    for index in np.ndindex(2, 3, 2, 2):
-        here = ds.isel(dict(zip(ds.sizes, (*index, 0), strict=True)))
-        one = dataclasses.replace(
-            model,
-            film=bs.HamrockDowson(0.66),
-            friction=bs.ZhouHoeprich(float(here["friction.boundary_friction_coefficient"]), decay=2.32),
-            ball_to_ball_force=float(here["ball_to_ball_force"]),
-        )
-        screw = dataclasses.replace(
-            seed_screw, ball_diameter=float(here["ball_diameter"]), contact_angle=float(here["contact_angle"])
-        )
-        r = one(screw, seed_oil, axial_load=4000.0, screw_speed=600 * RPM)
-        assert float(here["screw_torque"]) == pytest.approx(r.screw_torque, rel=1e-12)
-        assert float(here["efficiency"]) == pytest.approx(r.efficiency, rel=1e-12)
-
-
-def test_imposed_offset_can_be_swept(seed_screw, seed_oil):
-    offsets = [0.0, 0.34, 0.6]
-    ds = bs.sweep(
-        bs.FrictionModel.corrected(),
-        seed_screw,
-        seed_oil,
-        axial_load=4000.0,
-        screw_speed=60.0,
-        pure_rolling_offset=offsets,
-    )
-    for offset, torque in zip(offsets, ds["screw_torque"].to_numpy(), strict=True):
-        model = dataclasses.replace(bs.FrictionModel.corrected(), pure_rolling_offset=offset)
-        r = model(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
-        assert torque == pytest.approx(r.screw_torque, rel=1e-12)
 
 
 #: Inputs that a part has by default from elsewhere: a value to begin with.
@@ -215,128 +166,23 @@ def test_every_input_can_be_swept(model, seed_screw, seed_oil):
         assert ds["efficiency"].to_numpy()[row] == pytest.approx(r.efficiency, rel=1e-12), name
 
 
-def test_an_offset_can_only_be_swept_where_curvature_is_the_only_slip(seed_screw, seed_oil):
+def test_an_offset_can_only_be_swept_where_curvature_is_the_only_slip(sweep):
     with pytest.raises(bs.InputError, match="curvature is the only slip"):
-        bs.sweep(bs.FrictionModel.reference(), seed_screw, seed_oil, **GOOD, pure_rolling_offset=[0.3, 0.31])
+        sweep(bs.FrictionModel.reference(), **GOOD, pure_rolling_offset=[0.3, 0.31])
 
 
-def test_the_default_force_between_balls_can_be_swept(model, seed_screw, seed_oil):
+def test_the_default_force_between_balls_can_be_swept(model, seed_screw, seed_oil, sweep):
     """The one default that depends on another input: 1 N divided by the number of balls."""
-    ds = bs.sweep(model, seed_screw, seed_oil, axial_load=2000.0, screw_speed=30.0, loaded_balls=[56, 57])
+    ds = sweep(model, axial_load=2000.0, screw_speed=30.0, loaded_balls=[56, 57])
     r = model(dataclasses.replace(seed_screw, loaded_balls=57), seed_oil, axial_load=2000.0, screw_speed=30.0)
     assert ds["screw_torque"].to_numpy()[1] == pytest.approx(r.screw_torque, rel=1e-12)
-
-
-def user_law_of_a_table(conditions):
-    """A friction curve somebody measured."""
-    return np.interp(conditions.film_parameter, [0.0, 0.5, 1.0, 2.0], [0.2, 0.1, 0.05, 0.02])
-
-
-def user_law_with_clip(conditions):
-    return np.clip(0.2 - 0.1 * conditions.film_parameter, 0.02, 0.2)
-
-
-def user_law_with_an_assignment(conditions):
-    mu = np.full(np.shape(conditions.film_parameter), 0.2)
-    mu[conditions.film_parameter > 1] = 0.02
-    return mu
-
-
-def user_law_in_the_house_style(conditions):
-    return 0.02 + 0.18 / (1 + conditions.film_parameter**2) ** 0.5
-
-
-def user_law_of_logarithms(conditions):
-    """Powers of what may be negative."""
-    x = np.log(conditions.film_parameter + 0.1)
-    return 0.1 - 0.01 * x + 0.002 * x**2 - 0.001 * x**3
-
-
-def constant_user_law(conditions):
-    return 0.1
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "law",
-    [
-        user_law_of_a_table,
-        user_law_with_clip,
-        user_law_with_an_assignment,
-        user_law_in_the_house_style,
-        user_law_of_logarithms,
-        constant_user_law,
-    ],
-)
-def test_laws_of_the_user(law, model, seed_screw, seed_oil):
-    """A law that can be recorded is; one that cannot runs on plain arrays. The numbers are the same."""
-    mine = dataclasses.replace(model, friction=law)
-    load, speed = np.linspace(10, 8000, 50), np.linspace(0, 100, 50)
-    ds = bs.sweep(
-        mine, seed_screw, seed_oil, axial_load=points(load), screw_speed=points(speed), block_size=7, threads=2
-    )
-    r = mine(seed_screw, seed_oil, axial_load=load, screw_speed=speed)
-    for name in DEFAULT_OUTPUTS:
-        assert_same(ds[name].to_numpy(), EVERYTHING[name].read(r), sizes_of(r).get(name))
-
-
-def user_law_with_a_method(conditions):
-    """Methods of arrays are not operators: nothing to record."""
-    return (0.2 - 0.1 * conditions.film_parameter).clip(0.02, 0.2)
-
-
-def user_law_with_the_root_of_a_square(conditions):
-    """The root of a square is an absolute value."""
-    return 0.1 + 0.01 * np.sqrt(np.log(conditions.film_parameter + 0.1) ** 2)
-
-
-@pytest.mark.parametrize(
-    "law",
-    [
-        user_law_with_a_method,
-        user_law_with_the_root_of_a_square,
-    ],
-)
-def test_more_laws_of_the_user(law, model, seed_screw, seed_oil):
-    test_laws_of_the_user(law, model, seed_screw, seed_oil)
-
-
-def test_a_fault_in_a_law_of_the_user_is_raised(seed_screw, seed_oil):
-    def faulty(conditions):
-        raise ZeroDivisionError("mine")
-
-    mine = dataclasses.replace(bs.FrictionModel.olaru2005(), friction=faulty)
-    with pytest.raises(ZeroDivisionError, match="mine"):
-        bs.sweep(mine, seed_screw, seed_oil, axial_load=[1.0, 2.0], screw_speed=1.0)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("block_size", "threads"), [(3, 1), (7, 2), (64, 3), (1000, 1), (119, 2)])
-def test_blocks_and_threads_change_no_bit(both, seed_screw, seed_oil, block_size, threads):
-    model, whole, _ = both
-    values = {name: points(v) for name, v in random_points().items()}
-    ds = bs.sweep(
-        model, seed_screw, seed_oil, outputs=list(EVERYTHING), block_size=block_size, threads=threads, **values
-    )
-    xr.testing.assert_identical(ds, whole)
-
-
-def test_blocks_and_threads_change_no_bit_on_a_grid(model, seed_screw, seed_oil):
-    axes = {"axial_load": np.linspace(0, 4000, 7), "screw_speed": np.linspace(0, 100, 5), "viscosity": [0.05, 0.1]}
-    whole = bs.sweep(model, seed_screw, seed_oil, **axes)
-    for block_size, threads in ((1, 2), (29, 1), (100, 4)):
-        xr.testing.assert_identical(
-            bs.sweep(model, seed_screw, seed_oil, block_size=block_size, threads=threads, **axes), whole
-        )
 
 
 # -- labels ---------------------------------------------------------------------------------------
 
 
-def test_dimensions_come_in_the_order_given(model, seed_screw, seed_oil):
-    ds = bs.sweep(
-        model, seed_screw, seed_oil, viscosity=[0.05, 0.1], screw_speed=[0.0, 10.0, 20.0], axial_load=[1.0, 2.0, 3.0, 4]
-    )
+def test_dimensions_come_in_the_order_given(model, seed_screw, seed_oil, sweep):
+    ds = sweep(model, viscosity=[0.05, 0.1], screw_speed=[0.0, 10.0, 20.0], axial_load=[1.0, 2.0, 3.0, 4])
     assert list(ds.sizes.items()) == [("viscosity", 2), ("screw_speed", 3), ("axial_load", 4)]
     assert set(ds.data_vars) == set(DEFAULT_OUTPUTS)
     for variable in ds.data_vars.values():
@@ -348,39 +194,32 @@ def test_dimensions_come_in_the_order_given(model, seed_screw, seed_oil):
     assert float(here["screw_torque"]) == pytest.approx(r.screw_torque, rel=1e-12)
 
 
-def test_values_that_share_a_dimension_vary_together(model, seed_screw, seed_oil):
+def test_values_that_share_a_dimension_vary_together(model, seed_screw, seed_oil, sweep):
     load, speed = np.array([1000.0, 2000.0, 3000.0]), np.array([10.0, 20.0, 30.0])
-    ds = bs.sweep(
-        model,
-        seed_screw,
-        seed_oil,
-        axial_load=points(load),
-        screw_speed=points(speed),
-        viscosity=[0.05, 0.1],
-    )
+    ds = sweep(model, axial_load=points(load), screw_speed=points(speed), viscosity=[0.05, 0.1])
     assert dict(ds.sizes) == {"point": 3, "viscosity": 2}
     assert ds["axial_load"].dims == ds["screw_speed"].dims == ("point",)
     r = model(seed_screw, dataclasses.replace(seed_oil, viscosity=0.05), axial_load=load, screw_speed=speed)
     assert np.allclose(ds["screw_torque"].sel(viscosity=0.05), r.screw_torque, rtol=1e-12, atol=0)
 
 
-def test_a_value_may_have_two_named_axes(model, seed_screw, seed_oil):
+def test_a_value_may_have_two_named_axes(model, seed_screw, seed_oil, sweep):
     load = xr.DataArray([[100.0, 200.0, 300.0], [400.0, 500.0, 600.0]], dims=("machine", "axis"))
     speed = xr.DataArray([1.0, 2.0, 3.0], dims="axis")
-    ds = bs.sweep(model, seed_screw, seed_oil, screw_speed=speed, axial_load=load)
+    ds = sweep(model, screw_speed=speed, axial_load=load)
     assert dict(ds.sizes) == {"axis": 3, "machine": 2}
     expected = model(seed_screw, seed_oil, axial_load=load.to_numpy().T, screw_speed=speed.to_numpy()[:, None])
     assert np.allclose(ds["screw_torque"], expected.screw_torque, rtol=1e-12, atol=0)
 
 
-def test_numbers_stay_numbers(model, seed_screw, seed_oil):
-    ds = bs.sweep(model, seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
+def test_numbers_stay_numbers(model, seed_screw, seed_oil, sweep):
+    ds = sweep(model, axial_load=4000.0, screw_speed=60.0)
     assert dict(ds.sizes) == {}
     assert ds["screw_torque"].ndim == 0
     assert float(ds["axial_load"]) == 4000.0
     r = model(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
     assert float(ds["screw_torque"]) == pytest.approx(r.screw_torque, rel=1e-12)
-    ds = bs.sweep(model, seed_screw, seed_oil, axial_load=[4000.0, 1.0], screw_speed=60.0)
+    ds = sweep(model, axial_load=[4000.0, 1.0], screw_speed=60.0)
     assert dict(ds.sizes) == {"axial_load": 2}
     assert ds["screw_speed"].ndim == 0
 
@@ -394,16 +233,8 @@ def test_every_output_is_described(both, name):
     assert attributes["symbol"]
 
 
-def test_attributes(model, seed_screw, seed_oil):
-    ds = bs.sweep(
-        model,
-        seed_screw,
-        seed_oil,
-        axial_load=[1.0],
-        screw_speed=[1.0],
-        viscosity=0.2,
-        **{"friction.decay": [1.42, 2.32]},
-    )
+def test_attributes(model, sweep):
+    ds = sweep(model, axial_load=[1.0], screw_speed=[1.0], viscosity=0.2, **{"friction.decay": [1.42, 2.32]})
     assert ds["screw_torque"].attrs == {
         "long_name": "friction torque on the screw",
         "units": "N m",
@@ -427,9 +258,9 @@ def test_attributes(model, seed_screw, seed_oil):
     assert all(np.ndim(value) == 0 for value in ds.attrs.values())
 
 
-def test_outputs_may_be_chosen(model, seed_screw, seed_oil):
+def test_outputs_may_be_chosen(model, sweep):
     chosen = ("friction_power", "contribution_curvature", "screw.film_parameter", "nut_maximum_pressure")
-    ds = bs.sweep(model, seed_screw, seed_oil, outputs=chosen, axial_load=[1.0, 2.0], screw_speed=60.0)
+    ds = sweep(model, outputs=chosen, axial_load=[1.0, 2.0], screw_speed=60.0)
     assert list(ds.data_vars) == [name.replace(".", "_") for name in chosen]
 
 
@@ -449,12 +280,10 @@ def test_outputs_cover_results_and_both_sides():
 
 
 @pytest.mark.parametrize("threads", [1, 3])
-def test_progress_is_told_in_order(model, seed_screw, seed_oil, threads):
+def test_progress_is_told_in_order(model, threads, sweep):
     told = []
-    bs.sweep(
+    sweep(
         model,
-        seed_screw,
-        seed_oil,
         axial_load=np.linspace(1, 2, 25),
         screw_speed=np.linspace(1, 2, 4),
         block_size=30,
@@ -468,21 +297,12 @@ def test_progress_is_told_in_order(model, seed_screw, seed_oil, threads):
 
 
 @pytest.mark.parametrize("threads", [1, 2])
-def test_a_sweep_can_be_stopped_from_its_progress(model, seed_screw, seed_oil, threads):
+def test_a_sweep_can_be_stopped_from_its_progress(model, threads, sweep):
     def stop(finished, total):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        bs.sweep(
-            model,
-            seed_screw,
-            seed_oil,
-            axial_load=np.linspace(1, 2, 100),
-            screw_speed=1.0,
-            block_size=10,
-            threads=threads,
-            done=stop,
-        )
+        sweep(model, axial_load=np.linspace(1, 2, 100), screw_speed=1.0, block_size=10, threads=threads, done=stop)
 
 
 # -- bad input ------------------------------------------------------------------------------------
@@ -504,26 +324,26 @@ GOOD = {"axial_load": [1000.0, 2000.0], "screw_speed": [10.0]}
         ({"viscosity": [0.1, 0.0]}, r"lubricant\.viscosity: must be positive"),
         ({"screw_conformity": [0.5, 0.52]}, r"screw\.screw_conformity: must be above 0\.5"),
         ({"axial_load": np.ones((2, 2))}, r"sweep\.axial_load: has several axes .*DataArray"),
-        ({"loaded_balls": [56, 56.5]}, r"screw\.loaded_balls: must be a whole number"),
+        ({"loaded_balls": [50, 50.5, 51]}, r"screw\.loaded_balls: must be a whole number"),
+        ({"axial_load": xr.DataArray([1.0, 2.0], dims=(3,))}, r"has a dimension whose name is no text \(\(3,\)\)"),
         (
             {"axial_load": points([1.0, 2.0]), "screw_speed": points([1.0, 2.0, 3.0])},
             r"sweep\.point: different lengths",
         ),
     ],
 )
-def test_bad_input_is_refused_with_the_remedy(model, seed_screw, seed_oil, changed, message):
+def test_bad_input_is_refused_with_the_remedy(model, changed, message, sweep):
     with pytest.raises(bs.InputError, match=message):
-        bs.sweep(model, seed_screw, seed_oil, **(GOOD | changed))
+        sweep(model, **(GOOD | changed))
 
 
 @pytest.mark.parametrize("engine", ["numpy", "model"])
-def test_loads_and_speeds_of_either_sign_are_swept(model, seed_screw, seed_oil, engine):
+def test_loads_and_speeds_of_either_sign_are_swept(model, engine, sweep):
     """The other way round the drive torque is the same with the other sign, and friction is what it was."""
     outputs = ["drive_torque", "screw_torque", "efficiency", "valid"]
     ends = {"axial_load": np.array([-2000.0, -50.0, 0.0, 50.0, 2000.0]), "screw_speed": np.array([-30.0, 0.0, 30.0])}
     ds, turned = (
-        bs.sweep(model, seed_screw, seed_oil, engine=engine, outputs=outputs, **{n: sign * v for n, v in ends.items()})
-        for sign in (1, -1)
+        sweep(model, engine=engine, outputs=outputs, **{n: sign * v for n, v in ends.items()}) for sign in (1, -1)
     )
     assert np.array_equal(turned["drive_torque"], -ds["drive_torque"])
     for name in ("screw_torque", "efficiency", "valid"):
@@ -534,52 +354,45 @@ def test_loads_and_speeds_of_either_sign_are_swept(model, seed_screw, seed_oil, 
 
 
 @pytest.mark.parametrize("name", ["axial_load", "screw_speed"])
-def test_the_operating_point_is_needed(model, seed_screw, seed_oil, name):
+def test_the_operating_point_is_needed(model, name, sweep):
     given = {key: value for key, value in GOOD.items() if key != name}
     with pytest.raises(bs.InputError, match=rf"sweep\.{name}: missing .*give {name}="):
-        bs.sweep(model, seed_screw, seed_oil, **given)
+        sweep(model, **given)
 
 
-def test_all_faults_are_told_at_once(model, seed_screw, seed_oil):
+def test_all_faults_are_told_at_once(model, sweep):
     with pytest.raises(bs.InputError) as caught:
-        bs.sweep(model, seed_screw, seed_oil, axial_laod=[1.0], viscosity=[-1.0], lead=[math.nan])
+        sweep(model, axial_laod=[1.0], viscosity=[-1.0], lead=[math.nan])
     text = str(caught.value)
     for name in ("axial_laod", "viscosity", "lead", "axial_load", "screw_speed"):
         assert name in text
 
 
-def test_whole_numbers_are_whole_between_the_ends_too(model, seed_screw, seed_oil):
-    with pytest.raises(bs.InputError, match=r"screw\.loaded_balls: must be a whole number"):
-        bs.sweep(model, seed_screw, seed_oil, loaded_balls=[50, 50.5, 51], **GOOD)
-
-
-def test_impossible_geometry_is_flagged(model, seed_screw, seed_oil):
+def test_impossible_geometry_is_flagged(model, sweep):
     """What a constructor refuses in a number is flagged in an array."""
-    ds = bs.sweep(model, seed_screw, seed_oil, ball_diameter=[3.0e-3, 6.0e-3, 19e-3, 21e-3], **GOOD)
+    ds = sweep(model, ball_diameter=[3.0e-3, 6.0e-3, 19e-3, 21e-3], **GOOD)
     assert ds["valid"].isel(axial_load=0, screw_speed=0).to_numpy().tolist() == [True, False, False, False]
 
 
-def test_an_input_may_be_asked_for_as_an_output(model, seed_screw, seed_oil):
-    ds = bs.sweep(
-        model, seed_screw, seed_oil, outputs=["screw_torque", "ball_to_ball_force"], ball_to_ball_force=[0, 0.1], **GOOD
-    )
+def test_an_input_may_be_asked_for_as_an_output(model, sweep):
+    ds = sweep(model, outputs=["screw_torque", "ball_to_ball_force"], ball_to_ball_force=[0, 0.1], **GOOD)
     assert list(ds["ball_to_ball_force"].to_numpy()) == [0, 0.1]
 
 
-def test_labels_of_a_dimension_stay(model, seed_screw, seed_oil):
+def test_labels_of_a_dimension_stay(model, sweep):
     load = xr.DataArray([1000.0, 2000.0], dims="case", coords={"case": ["light", "heavy"]})
-    ds = bs.sweep(model, seed_screw, seed_oil, axial_load=load, screw_speed=10.0)
+    ds = sweep(model, axial_load=load, screw_speed=10.0)
     assert list(ds["case"].to_numpy()) == ["light", "heavy"]
 
 
-def test_names_that_mean_two_things_are_refused(seed_screw, seed_oil):
+def test_names_that_mean_two_things_are_refused(sweep):
     model = bs.FrictionModel.corrected()
     odd = xr.DataArray([1000.0, 2000.0], dims="efficiency")
     with pytest.raises(bs.InputError, match=r"sweep\.efficiency: is a dimension and something else"):
-        bs.sweep(model, seed_screw, seed_oil, outputs=["efficiency"], axial_load=odd, screw_speed=10.0)
+        sweep(model, outputs=["efficiency"], axial_load=odd, screw_speed=10.0)
     other = xr.DataArray([1000.0, 2000.0], dims="lead")
     with pytest.raises(bs.InputError, match=r"sweep\.lead: is a dimension and something else"):
-        bs.sweep(model, seed_screw, seed_oil, axial_load=other, screw_speed=10.0, lead=0.005)
+        sweep(model, axial_load=other, screw_speed=10.0, lead=0.005)
 
 
 def test_arrays_belong_into_the_sweep(seed_screw, seed_oil):
@@ -588,24 +401,14 @@ def test_arrays_belong_into_the_sweep(seed_screw, seed_oil):
         bs.sweep(bs.FrictionModel.corrected(), screw, seed_oil, axial_load=[1.0, 2.0], screw_speed=10.0)
 
 
-@pytest.mark.parametrize("values", [["4 kN"], [[1.0], [2.0, 3.0]], [1.0, None], "4 kN"])
-def test_what_is_no_number_is_refused(values, seed_screw, seed_oil):
-    with pytest.raises(bs.InputError, match=r"(sweep|operation)\.axial_load: must be "):
-        bs.sweep(bs.FrictionModel.corrected(), seed_screw, seed_oil, axial_load=values, screw_speed=10.0)
-
-
-def test_a_single_output_may_be_a_plain_name(seed_screw, seed_oil):
-    ds = bs.sweep(
-        bs.FrictionModel.corrected(), seed_screw, seed_oil, outputs="efficiency", axial_load=[1e3], screw_speed=9
-    )
+def test_a_single_output_may_be_a_plain_name(sweep):
+    ds = sweep(bs.FrictionModel.corrected(), outputs="efficiency", axial_load=[1e3], screw_speed=9)
     assert list(ds.data_vars) == ["efficiency"]
 
 
-def test_a_material_that_varies_is_a_coordinate_and_no_attribute(model, seed_screw, seed_oil):
+def test_a_material_that_varies_is_a_coordinate_and_no_attribute(model, seed_screw, seed_oil, sweep):
     moduli = [2.0e11, 3.2e11]
-    ds = bs.sweep(
-        model, seed_screw, seed_oil, axial_load=1e3, screw_speed=30.0, **{"ball_material.young_modulus": moduli}
-    )
+    ds = sweep(model, axial_load=1e3, screw_speed=30.0, **{"ball_material.young_modulus": moduli})
     assert ds["ball_material.young_modulus"].attrs["units"] == "Pa"
     assert "screw_ball_material_young_modulus" not in ds.attrs
     assert ds.attrs["screw_nut_material_young_modulus"] == seed_screw.nut_material.young_modulus

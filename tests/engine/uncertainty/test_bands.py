@@ -44,6 +44,17 @@ def drive():
     return case_file.load(EXAMPLES / "feed_drive.toml")
 
 
+@pytest.fixture(scope="module")
+def uncertain(drive):
+    """The uncertain inputs of the drive by their names."""
+    return {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
+
+
+@pytest.fixture(scope="module")
+def subject(drive):
+    return drive.model, drive.screw, drive.lubricant
+
+
 @pytest.fixture
 def of_seed(seed_screw, seed_oil):
     def made(model=None, **options):
@@ -83,20 +94,18 @@ def test_small_deviations_propagate_as_derivatives_say(of_seed, seed_screw, seed
 
 
 @pytest.mark.slow
-def test_wide_distributions_against_random_samples(drive):
+def test_wide_distributions_against_random_samples(drive, subject, uncertain):
     """The ends of the bands lie where the random sampler has the shares that they should have."""
     outputs = ["screw_torque", "efficiency", "holding_torque", "friction_power"]
-    inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     point = {name: getattr(drive.operation, name) for name in ("axial_load", "screw_speed")}
-    subject = (drive.model, drive.screw, drive.lubricant)
     count, random = 2**13, 2**15
-    found = band(*subject, distributions=inputs, **point, outputs=outputs, samples=count)
+    found = band(*subject, distributions=uncertain, **point, outputs=outputs, samples=count)
     around = []
     for share in (0.025, 0.975):
         error = ERRORS * math.sqrt(share * (1 - share) * (1 / count + 1 / random))
         around += [share - error, share + error]
     sampled = bs.monte_carlo(
-        *subject, distributions=inputs, samples=random, seed=3, outputs=outputs, quantiles=around, **point
+        *subject, distributions=uncertain, samples=random, seed=3, outputs=outputs, quantiles=around, **point
     )
     for output in outputs:
         low, high = found[output].parameters
@@ -145,17 +154,9 @@ def test_kept_samples_are_those_of_the_model(of_seed, seed_screw, seed_oil):
         assert drawn[name] == pytest.approx(getattr(r, name), rel=1e-9)
 
 
-def test_self_locking_share():
+def test_self_locking_share(seed_screw):
     """The holding torque is M_Sa − M_S: it locks where the friction drawn exceeds the torque of the load."""
-    screw = bs.BallScrew(
-        pitch_circle_diameter=0.04,
-        lead=0.0035,
-        ball_diameter=3.175e-3,
-        loaded_balls=56,
-        contact_angle=math.pi / 4,
-        screw_conformity=0.515,
-        nut_conformity=0.515,
-    )
+    screw = dataclasses.replace(seed_screw, lead=0.0035)
     model = dataclasses.replace(bs.FrictionModel.reference(), ball_force=ProportionalBallForce(0.02))
     found = band(
         model,
@@ -242,13 +243,11 @@ def test_independent_slots_against_all_combinations(example):
 
 
 @pytest.mark.slow
-def test_a_curve_goes_through_the_band(drive):
-    inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
+def test_a_curve_goes_through_the_band(drive, subject, uncertain):
     options = {
-        "distributions": inputs, "alternatives": compute.alternatives(drive), "samples": 256, "axial_load": 5000.0,
+        "distributions": uncertain, "alternatives": compute.alternatives(drive), "samples": 256, "axial_load": 5000.0,
         "screw_speed": 60.0,
     }  # fmt: skip
-    subject = (drive.model, drive.screw, drive.lubricant)
     curve = band_along(*subject, along="screw_speed", points=[0.0, 60.0, 90.0], **options)
     for i, speed in enumerate((0.0, 60.0, 90.0)):
         found = band(*subject, **{**options, "screw_speed": speed})["screw_torque"]
@@ -259,12 +258,10 @@ def test_a_curve_goes_through_the_band(drive):
 
 
 @pytest.mark.slow
-def test_axes_have_the_band_of_each_point(drive):
+def test_axes_have_the_band_of_each_point(drive, subject, uncertain):
     """Over a load and a diameter of the balls, in SI and with names, as a sweep is."""
-    inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
-    subject = (drive.model, drive.screw, drive.lubricant)
     options = {
-        "distributions": inputs, "alternatives": compute.alternatives(drive), "samples": 128,
+        "distributions": uncertain, "alternatives": compute.alternatives(drive), "samples": 128,
         "outputs": ["screw_torque", "holding_torque"],
     }  # fmt: skip
     loads, leads = [1000.0, -3000.0, 5000.0], [0.01, 0.02]
@@ -287,15 +284,12 @@ def test_axes_have_the_band_of_each_point(drive):
 
 
 @pytest.mark.slow
-def test_axes_have_the_share_of_invalid_samples_of_each_point(drive):
+def test_axes_have_the_share_of_invalid_samples_of_each_point(subject, uncertain):
     """From a load at which most samples are valid to one at which none is, and between."""
-    inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     loads = [1000.0, 90_000.0, 110_000.0, 130_000.0, 160_000.0]
-    options = {"distributions": inputs, "samples": 128, "screw_speed": 60.0}
-    found = bs.band(drive.model, drive.screw, drive.lubricant, **options, axial_load=loads)["invalid_share"]
-    ones = [
-        bs.band(drive.model, drive.screw, drive.lubricant, **options, axial_load=load).invalid_share for load in loads
-    ]
+    options = {"distributions": uncertain, "samples": 128, "screw_speed": 60.0}
+    found = bs.band(*subject, **options, axial_load=loads)["invalid_share"]
+    ones = [bs.band(*subject, **options, axial_load=load).invalid_share for load in loads]
     assert found.dims == ("axial_load",)
     assert found.attrs["units"] == "1"
     assert found.values.tolist() == ones
@@ -495,10 +489,9 @@ def test_joint_inputs_are_checked(of_seed):
         of_seed(distributions={}, joint=dataclasses.replace(joint, names=("viscosty",)))
 
 
-def test_a_curve_along_something_else(drive):
+def test_a_curve_along_something_else(subject):
     with pytest.raises(InputError, match=r"band.along: unknown"):
-        band_along(drive.model, drive.screw, drive.lubricant, along="lead", points=[1.0], distributions={}, **POINT)
-    subject = (drive.model, drive.screw, drive.lubricant)
+        band_along(*subject, along="lead", points=[1.0], distributions={}, **POINT)
     with pytest.raises(InputError, match=r"band.axial_load: must be one number"):
         band_along(
             *subject, along="screw_speed", points=[1.0], distributions={}, axial_load=[1.0, 2.0], screw_speed=1.0

@@ -189,19 +189,6 @@ def test_infinite_and_missing_results():
         assert [float(np.squeeze(one)) for one in found] == pytest.approx(expected, rel=0, abs=0, nan_ok=True)
 
 
-@pytest.mark.compiles
-@pytest.mark.parametrize("name", ["olaru2005", "corrected"])
-def test_engines_agree(sampled, name):
-    model = getattr(bs.FrictionModel, name)()
-    plain, fast = (
-        sampled(model, distributions=INPUTS, samples=30_000, engine=engine) for engine in ("numpy", "compiled")
-    )
-    assert list(plain) == list(fast)
-    for variable in plain:
-        size = np.abs(plain[variable]).max()
-        assert np.abs(fast[variable] - plain[variable]).max() <= 1e-10 * size
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("engine", "samples"), [("numpy", 10**6), pytest.param("compiled", 4 * 10**6, marks=pytest.mark.compiles)]
@@ -218,33 +205,6 @@ def test_memory_is_that_of_the_results(sampled, engine, samples):
     finally:
         tracemalloc.stop()
     assert peak < 40 * samples + 60e6
-
-
-def test_a_law_that_cannot_be_recorded(sampled):
-    """Is evaluated on plain arrays, on the same samples; a kernel of it cannot be had."""
-
-    def table(conditions):
-        return np.interp(conditions.film_parameter, [0.0, 3.0], [0.2, 0.02])
-
-    def line(conditions):
-        return np.maximum(0.2 - 0.06 * conditions.film_parameter, 0.02)
-
-    options = {"distributions": INPUTS, "samples": 5000, "outputs": ["screw_torque", "valid"]}
-    by_table, by_line = (
-        sampled(dataclasses.replace(bs.FrictionModel.corrected(), friction=law), **options) for law in (table, line)
-    )
-    for variable in by_line:
-        assert by_table[variable].to_numpy() == pytest.approx(by_line[variable].to_numpy(), rel=1e-9)
-
-
-@pytest.mark.compiles
-def test_a_law_that_cannot_be_recorded_has_no_kernel(sampled):
-    def table(conditions):
-        return np.interp(conditions.film_parameter, [0.0, 3.0], [0.2, 0.02])
-
-    model = dataclasses.replace(bs.FrictionModel.corrected(), friction=table)
-    with pytest.raises(bs.InputError, match=r"monte_carlo\.engine: cannot be had: .*numpy\.interp cannot be recorded"):
-        sampled(model, distributions=INPUTS, samples=10, engine="compiled")
 
 
 def test_outputs_of_every_kind(sampled, engine):

@@ -10,7 +10,6 @@ from scipy.stats import t as student
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.evidence.calibration import baselines
 from ballscrew.evidence.calibration import fit as calibration
 from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, TRUE_FRICTION, log, truth
@@ -60,12 +59,6 @@ SCENARIOS = {
 }  # fmt: skip
 
 
-@pytest.fixture
-def quick_baselines(monkeypatch):
-    """No search for the baseline that a fit is compared with, for tests that look at the estimates of many fits."""
-    monkeypatch.setattr(baselines, "STRIBECK_SHARES", baselines.STRIBECK_SHARES[-1:])
-
-
 def covered(scenario, seeds, *levels):
     """By level and estimate, for each seed: does the interval hold the truth?"""
     free, true, options = SCENARIOS[scenario]
@@ -84,11 +77,7 @@ def covered(scenario, seeds, *levels):
 
 
 #: Of scenarios that are alike, one is enough in the short run.
-LONG = (
-    "two of one law",
-    "one direction, one row of ten too large",
-    "few rows of drive torque with noise of 1 %",
-)
+LONG = ("two of one law", "one direction, one row of ten too large", "few rows of drive torque with noise of 1 %")
 
 
 @pytest.mark.usefixtures("quick_baselines")

@@ -12,6 +12,7 @@ from ballscrew.evidence.calibration.identifiability import (
     weighted_derivatives,
 )
 from ballscrew.evidence.calibration.robust import Noise, Solution, scatter_of
+from support.synthetic_logs import autoregressive
 
 NOTHING = np.empty((0, 3))
 
@@ -147,13 +148,6 @@ def test_the_biweight_costs_five_per_cent():
     classical = 0.3**2 * np.linalg.inv(slopes.T @ slopes)
     ratio = np.diagonal(covariance_of(solution)) / np.diagonal(classical)
     np.testing.assert_allclose(ratio, 1 / 0.95, atol=0.03)
-
-
-def autoregressive(rows, correlation, seed):
-    found = np.random.default_rng(seed).standard_normal(rows)
-    for i in range(1, rows):
-        found[i] += correlation * found[i - 1]
-    return found
 
 
 @pytest.mark.usefixtures("no_bend")

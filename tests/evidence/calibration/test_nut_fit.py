@@ -9,8 +9,8 @@ from scipy.stats import binom
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.evidence.calibration import baselines, next_test
 from ballscrew.evidence.calibration import fit as calibration
+from ballscrew.evidence.calibration import next_test
 from ballscrew.evidence.calibration.response import Response
 from support.strategies import MODELS
 from support.synthetic_logs import OIL
@@ -49,12 +49,6 @@ def nut_log(screw, seed, largest_load, rows=120):
     torque = torque + 0.01 * usual * rng.standard_normal(rows) + 0.02 * usual * np.linspace(-0.5, 0.5, rows)
     torque = torque + np.where(rng.random(rows) < 0.05, 0.3 * usual * rng.standard_normal(rows), 0.0)
     return {"axial_load": load, "screw_speed": speed, "torque": torque, "time": np.arange(rows, dtype=float)}
-
-
-@pytest.fixture
-def quick_baselines(monkeypatch):
-    """No search for the baseline that a fit is compared with, for tests that look at the estimates of many fits."""
-    monkeypatch.setattr(baselines, "STRIBECK_SHARES", baselines.STRIBECK_SHARES[-1:])
 
 
 def covered(name, seeds):

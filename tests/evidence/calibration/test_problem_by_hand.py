@@ -7,16 +7,13 @@ import numpy as np
 import pytest
 from scipy.stats import lognorm, norm, triang
 
-from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.evidence.calibration import problem as problems
 from ballscrew.evidence.calibration.baselines import first_loss, robust_linear
 from ballscrew.evidence.calibration.calibrated_model import Posterior
-from ballscrew.evidence.calibration.diagnostics import _is_zero_by_chance
 from ballscrew.evidence.calibration.fit import _one_sided, fit
-from ballscrew.evidence.calibration.next_test import _after, _grid, _volume
 from ballscrew.evidence.calibration.problem import CONVENTIONS, Priors, Problem, identify_convention
 from ballscrew.evidence.calibration.response import torque_per_kelvin
 from ballscrew.evidence.calibration.robust import Noise, Solution
@@ -159,19 +156,6 @@ def test_scales_and_bounds_of_a_number(bounds, value, scale, low, high):
     assert (found.low, found.high) == (pytest.approx(low, abs=1e-12), pytest.approx(high, abs=1e-12))
 
 
-def test_given_bounds_are_kept_within_the_own():
-    # without a log and a fit around it
-    one = problems._parameter("x", quantity(at_least=0, at_most=4), 3.0)
-    for given, low, high, start in (((1, 2), 1, 2, 2.0), ((-5, 9), 0, 4, 3.0), ((3.5, 9), 3.5, 4, 3.5)):
-        # without a log and a fit around it
-        found = problems._bounded(one, {"x": given})
-        assert (found.low, found.high, found.start) == (low, high, start)
-    assert problems._bounded(one, {"y": (1, 2)}) is one
-    for wrong in ((2, 2), (3, 2), (5, 9)):
-        with pytest.raises(InputError, match="leave no room"):
-            problems._bounded(one, {"x": wrong})
-
-
 # -- priors ---------------------------------------------------------------------------------------
 
 
@@ -221,33 +205,9 @@ def test_a_preload_of_a_product_of_powers_is_fitted_as_by_logarithms():
     assert estimate.degrees_of_freedom == rows - len(found.problem.parameters)
 
 
-@pytest.mark.parametrize(
-    ("value", "interval", "by_chance"),
-    [(-0.1, (-0.3, 0.1), True), (-0.1, (-0.2, 0.0), True), (-0.1, (-0.2, -0.01), False), (0.1, (-0.1, 0.3), False),
-     (-0.1, None, False)],
-)  # fmt: skip
-def test_a_number_is_zero_by_chance_where_it_is_below_and_its_interval_is_not(value, interval, by_chance):
-    # without a log and a fit around it
-    assert _is_zero_by_chance(types.SimpleNamespace(value=value, interval=lambda: interval)) is by_chance
-
-
 def test_the_interval_of_samples_has_equal_shares_beyond_its_ends():
     found = Posterior({"x": np.arange(1001.0)}, 1.0, 0.5)
     assert found.interval("x", 0.9) == pytest.approx((50.0, 950.0))
-
-
-@pytest.mark.parametrize(("readings", "directions"), [(1, 1), (6, 2)])
-def test_what_a_test_leaves_is_the_inverse_of_both_informations(readings, directions):
-    random = np.random.default_rng(1)
-    root, slopes = random.normal(0, 1, (5, 3)), random.normal(0, 1, (4, directions, 3))
-    before = np.linalg.inv(root.T @ root)
-    # without a log and a fit around it
-    found = _after(before, slopes, readings)
-    for one, left in zip(slopes, found, strict=True):
-        assert left == pytest.approx(np.linalg.inv(root.T @ root + readings / directions * one.T @ one))
-    # the volume of an ellipsoid goes with the root of the determinant: that of a cube of errors with their product
-    assert _volume(np.diag([4.0, 9.0, 25.0])[np.newaxis], 2) == pytest.approx([6.0])
-    assert _volume(found, 3) == pytest.approx(np.sqrt(np.linalg.det(found)))
 
 
 def test_the_loss_of_a_line_by_hand():
@@ -292,24 +252,6 @@ def test_a_number_is_told_on_one_side_where_the_torques_go_flat(torque, one_side
     assert _one_sided(fitted, uncertainty).tolist() == [one_sided]
     # a number without an error has no sides
     assert _one_sided(fitted, types.SimpleNamespace(covariance=np.zeros((1, 1)))).tolist() == [False]
-
-
-def test_tests_are_thought_of_by_ratios_and_temperatures_by_differences():
-    """25 speeds by 15 loads by 5 temperatures; one where a range is a number, and a thousandth for a least of zero."""
-    found = _grid({"axial_load": (10.0, 1000.0), "screw_speed": (1.0, 100.0), "temperature": (300.0, 340.0)})
-    assert {name: np.unique(values).size for name, values in found.items()} == {
-        "axial_load": 15,
-        "screw_speed": 25,
-        "temperature": 5,
-    }
-    assert all(values.size == 15 * 25 * 5 for values in found.values())
-    assert np.unique(found["temperature"]) == pytest.approx([300, 310, 320, 330, 340])
-    for name, ratio in (("axial_load", 100 ** (1 / 14)), ("screw_speed", 100 ** (1 / 24))):
-        values = np.unique(found[name])
-        assert values[1:] / values[:-1] == pytest.approx(np.full(values.size - 1, ratio))
-    bare = _grid({"axial_load": (0.0, 0.0), "screw_speed": (0.0, 100.0)})
-    assert bare["axial_load"].tolist() == [0.0] * 25
-    assert (bare["screw_speed"].min(), bare["screw_speed"].max()) == pytest.approx((0.1, 100.0))
 
 
 def test_the_torque_by_a_kelvin_of_a_product_of_powers():

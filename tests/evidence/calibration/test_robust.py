@@ -19,6 +19,7 @@ from ballscrew.evidence.calibration.robust import (
     scatter_of,
     solve,
 )
+from support.synthetic_logs import autoregressive
 
 RESIDUALS = np.array([-300.0, -5.0, -4.6, -1.35, -0.3, 0.0, 1e-3, 0.5, 1.0, 3.0, 4.7, 1e4])
 NO_PRIOR = Prior(lambda x: np.empty(0), lambda x: np.empty((0, x.size)))
@@ -258,14 +259,6 @@ def test_bounds_are_kept():
 
 
 # -- autocorrelation_lag ---------------------------------------------------------------------------------------
-
-
-def autoregressive(rows, correlation, seed=0):
-    """A series whose neighbours are alike: x[i] = φ x[i-1] + e[i]."""
-    found = np.random.default_rng(seed).standard_normal(rows)
-    for i in range(1, rows):
-        found[i] += correlation * found[i - 1]
-    return found
 
 
 def test_white_noise_is_forgotten_at_once():

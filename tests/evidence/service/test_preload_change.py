@@ -10,8 +10,7 @@ from scipy.stats import binom
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.evidence.service.diagnostics import Mixture
-from support.service_logs import OIL, PRELOAD, RPM, SCREW, WARM, another_screw, log, pair
+from support.service_logs import OIL, PRELOAD, RPM, SCREW, WARM, log, pair
 
 PAPER = bs.FrictionModel.olaru2005()
 #: Pairs of the default run, and of ``make test-all``; how often intervals that are right fail the test.
@@ -160,17 +159,6 @@ def test_the_preload_of_a_torque():
     assert math.log(np.divide(*worse.interval()[::-1])) > math.log(np.divide(*exact.interval()[::-1]))
 
 
-def test_a_mixture_of_one_is_normal():
-    one = Mixture.of(2.0, 0.5)
-    assert one.quantile(0.5) == pytest.approx(2.0)
-    assert one.quantile(0.975) == pytest.approx(2.0 + 0.5 * 1.959964, rel=1e-6)
-    assert one.share_below(2.5) == pytest.approx(0.8413447, rel=1e-6)
-    two = Mixture(np.array([0.5, 0.5]), np.array([-1.0, 1.0]), np.array([1e-6, 1e-6]))
-    assert two.total_variance == pytest.approx(1.0, rel=1e-5)
-    assert two.share_below(0.0) == pytest.approx(0.5)
-    assert math.isnan(Mixture.of(0.0, math.nan).interval(0.95)[0])
-
-
 # -- what is said ---------------------------------------------------------------------------------
 
 
@@ -213,8 +201,12 @@ REFUSED = {
         {"screw": dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=PRELOAD, bodies=bs.Bodies()))},
         "leave out [bodies] and [deviations]",
     ),
-    "tolerance": ({"tolerance": 1.0}, "service.tolerance: must lie between 0 and 1"),
+    **{
+        f"tolerance {wrong}": ({"tolerance": wrong}, "service.tolerance: must lie between 0 and 1")
+        for wrong in (0.0, 1.0, -0.1, "0.1", math.nan)
+    },
     "free": ({"free": ["nut.preload", "decay"]}, "service.free: is not fitted to each log (decay)"),
+    "free is text": ({"free": "nut.preload"}, "service.free: "),
     "free without preload": ({"free": ["constant_torque"]}, "service.free: must have nut.preload in it"),
     "uncertain": ({"distributions": {"decai": bs.Normal(1.0, 0.1)}}, "service.distributions.decai: unknown name"),
 }
@@ -232,18 +224,6 @@ def test_a_log_that_cannot_be_used_is_named(exact):
         change(exact[0], {**exact[1], "screw_speed": np.zeros(150)})
     with pytest.raises(bs.InputError, match=r"service\.worn: missing"):
         change(exact[0], None)
-
-
-def test_a_torque_that_no_preload_gives_is_refused():
-    with pytest.raises(bs.InputError, match=r"service\.torque: no preload gives it"):
-        bs.preload_of_torque(PAPER, SCREW, OIL, torque=1e-5, screw_speed=10.0)
-    with pytest.raises(bs.InputError, match=r"service\.screw_speed: must be positive"):
-        bs.preload_of_torque(PAPER, SCREW, OIL, torque=0.4, screw_speed=0.0)
-
-
-def test_the_other_screws_differ():
-    one, other = (another_screw(PAPER, seed).value_of("screw_conformity") for seed in (0, 1))
-    assert one != other != SCREW.screw_conformity
 
 
 def test_a_log_of_few_rows_is_refused_before_any_fit(monkeypatch):

@@ -95,14 +95,6 @@ def test_the_slope_and_its_interval_are_those_of_least_squares():
     assert found.told
 
 
-def test_values_that_follow_each_other_make_the_interval_wider():
-    random = np.random.default_rng(2)
-    warm, noise = 300 + 5 * np.sin(np.linspace(0, 30, 400)), random.normal(0, 0.01, 400)
-    following = np.convolve(noise, np.ones(20) / math.sqrt(20), mode="same")
-    alone, along = (temperature_trend(values, warm) for values in (noise, following))
-    assert along.high - along.low > 2 * (alone.high - alone.low)
-
-
 def test_of_few_values_or_of_one_temperature_nothing_is_told():
     assert temperature_trend(np.zeros(2), np.array([290.0, 300.0])) is None
     assert temperature_trend(np.zeros(9), np.linspace(300, 301, 9)) is None

@@ -11,7 +11,7 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.service import diagnostics
 from ballscrew.evidence.service.diagnostics import Mixture, PreloadEstimate
-from ballscrew.evidence.service.preload_change import PreloadChange, _faults_of_logs, _faults_of_options, _nominal
+from ballscrew.evidence.service.preload_change import PreloadChange, _faults_of_logs, _nominal
 from support.power_law import MODEL
 from support.service_logs import OIL, PRELOAD, SCREW, WARM
 
@@ -125,16 +125,7 @@ def test_the_preload_of_the_case_with_its_tolerance():
     assert _nominal(SUBJECT, {}).logarithm.variance[0] == 0.0
 
 
-def test_what_is_asked_is_looked_at():
-    def faults(free=("nut.preload",), tolerance=0.1):
-        return [fault.where for fault in _faults_of_options(free, tolerance)]
-
-    assert faults() == faults(("nut.preload", "constant_torque")) == []
-    assert faults(("constant_torque",)) == faults("nut.preload") == ["service.free"]
-    assert faults(("nut.preload", "decay")) == ["service.free"]
-    for wrong in (0.0, 1.0, -0.1, "0.1", math.nan):
-        assert faults(tolerance=wrong) == ["service.tolerance"]
-
+def test_logs_that_are_one_file_are_refused():
     def log(digest):
         return types.SimpleNamespace(source=None if digest is None else ("a.csv", digest))
 

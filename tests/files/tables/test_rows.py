@@ -25,6 +25,7 @@ from ballscrew.files.torque_logs import columns as torque_logs
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.questions.validate.compute import columns_of
+from support.log_texts import lines_of
 
 FIELDS = fields_of(CatalogueRow)
 LEAD, BALL = Column("lead", FIELDS["lead"], ("Ph", "P"), True), Column("ball_diameter", FIELDS["ball_diameter"])
@@ -56,12 +57,6 @@ def table(tmp_path):
 
 def values(found, name):
     return [row.values.get(name) for row in found.rows]
-
-
-def lines_of(action, *arguments, **options):
-    with pytest.raises(InputError) as caught:
-        action(*arguments, **options)
-    return caught.value.lines()
 
 
 # -- headings -------------------------------------------------------------------------------------
@@ -391,8 +386,7 @@ def test_faults_of_what_is_made_are_those_of_the_row(table):
     def make(row):
         if row.values["lead"] > 0.0055:
             raise InputError(
-                Fault("screw.lead", "too big", "0.006 m", "below 0.0055 m", bound=0.0055),
-                Fault("x.y", "odd"),
+                Fault("screw.lead", "too big", "0.006 m", "below 0.0055 m", bound=0.0055), Fault("x.y", "odd")
             )
         return row
 

@@ -14,6 +14,7 @@ from ballscrew.files.torque_logs import cleaning, log_rows
 from ballscrew.files.torque_logs.motion import SCALES, motion_of, runs_in
 from ballscrew.files.torque_logs.reservoir_sampler import ReservoirSampler
 from ballscrew.files.torque_logs.torque_log import TorqueLog
+from support.log_texts import lines_of
 
 LEAD, FRICTION, INERTIA = 0.01, 0.3, 0.01
 #: A cycle: times, speeds at them, and the acceleration between them.
@@ -35,12 +36,6 @@ def cycle(rows=2000, step=0.01, noise=0.0, inertia=INERTIA, **changes):
 
 def steady_torque(log):
     return log.axial_load * LEAD / (2 * np.pi) + FRICTION * np.sign(log.screw_speed)
-
-
-def lines_of(action, *arguments, **options):
-    with pytest.raises(InputError) as caught:
-        action(*arguments, **options)
-    return caught.value.lines()
 
 
 def simple(**changes):

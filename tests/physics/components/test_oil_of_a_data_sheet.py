@@ -10,7 +10,6 @@ import pint
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.oil_grades import grades
 from ballscrew.physics.friction.validity import beyond_data_sheet
 
 SHEET = {"kinematic_viscosity_40": 100e-6, "kinematic_viscosity_100": 11.1e-6, "density_15": 880.0}
@@ -55,12 +54,6 @@ def test_viscosity_index():
     assert math.isnan(bs.Lubricant(viscosity=0.1).viscosity_index)
     several = bs.Lubricant.from_data_sheet(np.array([73.3e-6, 22.83e-6, 4e-6]), np.array([8.86e-6, 5.05e-6, 1.9e-6]))
     np.testing.assert_allclose(several.viscosity_index, [92.43, 156.46, np.nan], atol=0.01)
-
-
-def test_grades_are_within_iso_3448_at_40_degrees():
-    for grade in (name for name in grades() if name.startswith("ISO VG")):
-        oil = bs.Lubricant.from_grade(grade, 313.15)
-        assert 1e6 * oil.kinematic_viscosity == pytest.approx(float(grade.split()[-1]), rel=0.1)
 
 
 @pytest.mark.parametrize("celsius", [-20, 150])
@@ -157,16 +150,6 @@ def test_compiled_sweeps_over_the_oil_are_those_of_numpy_and_of_the_model():
     at = {"axial_load": 4e3, "screw_speed": 30.0}
     torque = found["compiled"].sel(**at, temperature=COLD, kinematic_viscosity_40=50e-6)
     assert float(torque) == pytest.approx(float(MODEL(SCREW, oil, **at).screw_torque), rel=1e-9)
-
-
-@pytest.mark.slow
-def test_a_preloaded_nut_over_the_temperature():
-    screw = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=3000.0))
-    swept = bs.sweep(MODEL, screw, OIL, outputs=["screw_torque"], engine="numpy", **POINTS)["screw_torque"]
-    for temperature in POINTS["temperature"]:
-        one = MODEL(screw, OIL.at(temperature), axial_load=4e3, screw_speed=90.0).screw_torque
-        at = {"axial_load": 4e3, "screw_speed": 90.0, "temperature": temperature}
-        assert float(swept.sel(**at)) == pytest.approx(float(one), rel=1e-9)
 
 
 def test_derivatives_by_the_two_points():

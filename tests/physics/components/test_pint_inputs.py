@@ -194,6 +194,7 @@ CALLS = {
     "model of a nut": lambda **point: torque(MODEL(PRELOADED, OIL, **point)),
     "sweep": lambda **point: torque(bs.sweep(MODEL, SCREW, OIL, **point)),
     "sweep of a nut": lambda **point: torque(bs.sweep(MODEL, SCREW, OIL, nut=bs.DoubleNut(1e3), **point)),
+    "evaluator": lambda **point: bs.evaluator(MODEL, SCREW, OIL, engine="numpy")(**point)["screw_torque"],
     "derivatives": lambda **point: torque(bs.derivatives(MODEL, SCREW, OIL, by=["axial_load"], **point)),
 }
 ONE_POINT = {
@@ -299,19 +300,6 @@ def test_logs_and_fits():
     assert found.estimates["viscosity"].bounds == pytest.approx((0.01, 0.5))
     assert found.predict(5 * U.kN, 60.0) == found.predict(5e3, 60.0)
     assert found.band(5 * U.kN, 60.0) == found.band(5e3, 60.0)
-
-
-def test_labelled_arrays_that_do_not_fit_together():
-    def swept(load, speed):
-        return bs.sweep(MODEL, SCREW, OIL, axial_load=load, screw_speed=speed)
-
-    two, three = (xr.DataArray(np.ones(n), dims="row") for n in (2, 3))
-    with pytest.raises(bs.InputError, match=r"sweep.row: different lengths \(2 and 3\) · make them equal"):
-        swept(two, three)
-    with pytest.raises(bs.InputError, match=r"sweep.row: has other labels in another input"):
-        swept(two.assign_coords(row=[1, 2]), two.assign_coords(row=[1, 3]))
-    with pytest.raises(bs.InputError, match=r"sweep.axial_load: has a dimension whose name is no text \(\(3,\)\)"):
-        swept(xr.DataArray([1.0, 2.0], dims=(3,)), 1.0)
 
 
 def test_a_law_by_its_name_in_python():

@@ -15,61 +15,12 @@ every_screw = pytest.mark.parametrize(("d_m", "d_w", "alpha", "f"), SCREWS.value
 RELATIVE = 1e-13
 
 
-@every_screw
-@pytest.mark.equation("Olaru2005 §2.1 (2)")
-def test_nut_rolling_radius_as_printed(d_m, d_w, alpha, f):
-    printed = 1 / (2 / d_w - 2 * math.cos(alpha) / (d_m + d_w * math.cos(alpha)))
-    gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
-    assert geometry.nut_rolling_radius(d_w, gamma) == pytest.approx(printed, rel=RELATIVE)
-
-
-@every_screw
-@pytest.mark.equation("Olaru2005 §2.1 (3)")
-def test_screw_rolling_radius_as_printed(d_m, d_w, alpha, f):
-    printed = 1 / (2 / d_w + 2 * math.cos(alpha) / (d_m - d_w * math.cos(alpha)))
-    gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
-    assert geometry.screw_rolling_radius(d_w, gamma) == pytest.approx(printed, rel=RELATIVE)
-
-
 @pytest.mark.equation("Olaru2005 §2.1 (4)")
 def test_radii_ratio_of_the_paper():
     # reference sheet: mpmath, 40 digits
     R_y = geometry.transverse_radius(3.175e-3, 0.515)
     assert geometry.radii_ratio(R_y, 1.49839902129876699e-3) == pytest.approx(36.3749347750001211, rel=RELATIVE)
     assert geometry.radii_ratio(R_y, 1.67660097870123301e-3) == pytest.approx(32.5087288860390379, rel=RELATIVE)
-
-
-@every_screw
-@pytest.mark.equation("Olaru2005 §2.1 (5)")
-def test_transverse_radius_is_ball_against_groove(d_m, d_w, alpha, f):
-    curvature = 1 / (d_w / 2) - 1 / (f * d_w)
-    assert geometry.transverse_radius(d_w, f) == pytest.approx(1 / curvature, rel=RELATIVE)
-    printed = f * d_w / (2 * f - 1)
-    assert geometry.transverse_radius(d_w, f) == pytest.approx(printed, rel=RELATIVE)
-
-
-@every_screw
-@pytest.mark.equation("Olaru2005 §2.2 (16)")
-def test_deformed_radius_is_the_mean_curvature_of_ball_and_groove(d_m, d_w, alpha, f):
-    mean_curvature = (1 / (d_w / 2) + 1 / (f * d_w)) / 2
-    assert geometry.deformed_radius(d_w, f) == pytest.approx(1 / mean_curvature, rel=RELATIVE)
-    assert geometry.deformed_radius(d_w, f) == pytest.approx(2 * d_w * f / (2 * f + 1), rel=RELATIVE)
-
-
-@every_screw
-@pytest.mark.equation("Olaru2005 §6 (29)")
-def test_screw_contact_radius_as_printed(d_m, d_w, alpha, f):
-    gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
-    printed = d_m / 2 - d_w * math.cos(alpha) / 2
-    assert geometry.screw_contact_radius(d_m / 2, gamma) == pytest.approx(printed, rel=RELATIVE)
-
-
-@every_screw
-@pytest.mark.equation("Olaru2005 §6 (32)")
-def test_nut_contact_radius_as_printed(d_m, d_w, alpha, f):
-    gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
-    printed = d_m / 2 + d_w * math.cos(alpha) / 2
-    assert geometry.nut_contact_radius(d_m / 2, gamma) == pytest.approx(printed, rel=RELATIVE)
 
 
 def test_lead_angle_of_the_paper():

@@ -14,26 +14,13 @@ RELATIVE = 1e-13
 
 
 @every_screw
-@pytest.mark.equation("Olaru2005 §2.1 (8)")
-def test_entrainment_speed_as_printed(d_m, d_w, alpha, f):
-    for n in (1.0, 600.0, 3000.0):  # rpm
-        printed = math.pi * n / 30 * (1 - (d_w * math.cos(alpha) / d_m) ** 2) * d_m / 4
-        gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
-        v = kinematics.entrainment_speed(math.pi * n / 30, d_m / 2, gamma)
-        assert v == pytest.approx(printed, rel=RELATIVE)
-
-
-@every_screw
 @pytest.mark.equation("Olaru2005 §2.1 (8)", "Olaru2005 §6 (29)", "Olaru2005 §6 (32)")
 def test_speeds_of_a_ball_that_rolls_without_slipping(d_m, d_w, alpha, f):
     # Seen from the travelling ball the screw surface moves at (omega - omega_c) R_s, the nut surface at
     # omega_c R_n, and both at omega_b d_w/2: three equations for omega_c, omega_b and the speed.
     omega = 62.8
     R_s, R_n = d_m / 2 - d_w * math.cos(alpha) / 2, d_m / 2 + d_w * math.cos(alpha) / 2
-    orbital, rotation, v = np.linalg.solve(
-        [[R_s, 0, 1], [R_n, 0, -1], [0, d_w / 2, -1]],
-        [omega * R_s, 0, 0],
-    )
+    orbital, rotation, v = np.linalg.solve([[R_s, 0, 1], [R_n, 0, -1], [0, d_w / 2, -1]], [omega * R_s, 0, 0])
     gamma = geometry.curvature_ratio(d_w, d_m, alpha, 0.0)
     L = geometry.path_radius(d_m, 0.0)
     assert kinematics.entrainment_speed(omega, L, gamma) == pytest.approx(v, rel=1e-12)

@@ -32,43 +32,6 @@ def test_load_parameter_of_the_paper():
     assert pytest.approx(1.99078134111473684e-4, rel=RELATIVE) == W
 
 
-@pytest.mark.parametrize(
-    ("grade", "nu_A", "B"),
-    # Jungnickel2010: A in mm2/s, B in degrees C, pole at -95 degrees C
-    [
-        (10, 0.1, 623),
-        (15, 0.0932, 687),
-        (22, 0.087, 748),
-        (32, 0.0813, 808),
-        (46, 0.0762, 866),
-        (68, 0.071, 929),
-        (100, 0.0662, 990),
-        (150, 0.0616, 1055),
-        (220, 0.0575, 1116),
-        (320, 0.0537, 1176),
-        (460, 0.0503, 1234),
-    ],
-)
-def test_a_viscosity_grade_is_the_viscosity_at_40_degrees(grade, nu_A, B):
-    # ISO 3448: the grade is the kinematic viscosity at 40 degrees C in mm2/s, within 10 %
-    nu = rheology.kinematic_viscosity_vogel(313.15, nu_A * 1e-6, B, 273.15 - 95)
-    assert nu == pytest.approx(grade * 1e-6, rel=0.10)
-
-
-@pytest.mark.parametrize(("celsius", "viscosity"), [(40, 84.6e-3), (50, 52.4e-3), (100, 9.9e-3)])
-def test_viscosity_of_the_reference_oil(celsius, viscosity):
-    # Lubricants2023, Table A1: eta0 = 0.062 mPa s exp(1021.7/(T + 101.5517)); the law is the same for both viscosities
-    nu = rheology.kinematic_viscosity_vogel(273.15 + celsius, 0.062e-3 / 887.6, 1021.7, 273.15 - 101.5517)
-    assert rheology.dynamic_viscosity(nu, 887.6) == pytest.approx(viscosity, rel=0.006)
-
-
-@pytest.mark.parametrize(("celsius", "coefficient"), [(40, 2.24e-8), (50, 2.10e-8), (80, 1.77e-8)])
-def test_pressure_viscosity_of_the_reference_oil(celsius, coefficient):
-    # Lubricants2023, Table A1: a1 and a2 in bar; its own value at 80 degrees C is 0.3 % above its law
-    alpha_p = rheology.pressure_viscosity_linear(273.15 + celsius, 327.7918e5, 2.9862e5)
-    assert alpha_p == pytest.approx(coefficient, rel=0.0035)
-
-
 def test_pressure_viscosity_estimate():
     # Jungnickel2010: nu in m2/s, evaluated through logarithms
     for nu in (1e-5, 1e-4, 5e-4):

@@ -15,6 +15,7 @@ from ballscrew.physics.moving_balls.brush import BallContacts, Brush
 from ballscrew.physics.moving_balls.reversal import off_line_balls
 from ballscrew.physics.moving_balls.ripple import torque_ripple
 from oracles.ball_in_grooves import HalfNut
+from support.screws import with_grooves
 
 REFERENCE = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("VG 100", temperature=313.15)
@@ -23,15 +24,8 @@ SPEED = 2 * math.pi * 100 / 60
 
 def screw_of(d_m, lead, d_w, balls, conformity=0.54):
     """A screw by its sizes in millimetres."""
-    return bs.BallScrew(
-        pitch_circle_diameter=d_m * 1e-3,
-        lead=lead * 1e-3,
-        ball_diameter=d_w * 1e-3,
-        contact_angle=math.radians(45),
-        loaded_balls=balls,
-        screw_conformity=conformity,
-        nut_conformity=conformity,
-    )
+    sizes = {"pitch_circle_diameter": d_m * 1e-3, "lead": lead * 1e-3, "ball_diameter": d_w * 1e-3}
+    return with_grooves(conformity, loaded_balls=balls, **sizes)
 
 
 #: Screws from 6×1 to 125×20, and the load of a ball, N, at some 5 % of the dynamic rating.

@@ -256,27 +256,23 @@ def test_braced_halves_move_and_others_keep_their_load():
 
 
 @pytest.mark.parametrize(
-    ("defect", "message"),
+    ("changes", "message"),
     [
-        (PreloadLeft(1.5), "must be a share of the preload"),
-        (Spall(0.0, 1e-6), "must have a width and a depth"),
-        (NutGroove(-1.0), "must not be negative"),
+        ({"defect": PreloadLeft(1.5)}, "defect: must be a share of the preload"),
+        ({"defect": Spall(0.0, 1e-6)}, "defect: must have a width and a depth"),
+        ({"defect": NutGroove(-1.0)}, "defect: must not be negative"),
+        ({"turns": 0.0}, "turns: must be positive"),
+        ({"seed": -1}, "seed: must be a whole number"),
+        ({"circuits": 8}, r"circuits: leaves too few balls to each \(8\)"),
+        ({"relief": 11.0}, r"relief: leaves no ball its whole load \(11\)"),
     ],
 )
-def test_an_impossible_defect_is_refused(defect, message):
-    with pytest.raises(InputError, match=f"ripple.defect: {message}"):
-        ripple(defect=defect)
+def test_what_cannot_be_is_refused(changes, message):
+    with pytest.raises(InputError, match=f"ripple.{message}"):
+        ripple(**changes)
 
 
 def test_a_nut_without_preload_loses_none():
     single = dataclasses.replace(SCREW, nut=bs.SingleNut(angle_under_load=True))
     with pytest.raises(InputError, match=r"ripple.defect: is for a nut whose preload is given"):
         ripple(single, axial_load=800.0, defect=PreloadLeft(0.5))
-    with pytest.raises(InputError, match=r"ripple.turns: must be positive"):
-        ripple(turns=0.0)
-    with pytest.raises(InputError, match=r"ripple.seed: must be a whole number"):
-        ripple(seed=-1)
-    with pytest.raises(InputError, match=r"ripple.circuits: leaves too few balls to each \(8\)"):
-        ripple(circuits=8)
-    with pytest.raises(InputError, match=r"ripple.relief: leaves no ball its whole load \(11\)"):
-        ripple(relief=11.0)

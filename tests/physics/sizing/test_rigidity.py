@@ -12,6 +12,7 @@ from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.sizing import rigidity
 from ballscrew.physics.sizing.installation import Ends, Installation
 from ballscrew.physics.solvers.load_distribution import ball_loads
+from support import screws
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 PRELOAD = 0.07 * ROW.dynamic_load_rating
@@ -189,14 +190,12 @@ def test_random_screws_have_numbers():
     rng = np.random.default_rng(4)
     for size, lead in itertools.product((6, 16, 40, 125, 200), (0.3, 0.5, 1.5)):
         d_m = size / 1000
-        part = bs.BallScrew(
+        part = screws.screw(
             pitch_circle_diameter=d_m,
             lead=lead * d_m,
             ball_diameter=d_m * rng.uniform(0.06, 0.2),
             loaded_balls=int(rng.integers(5, 200)),
             contact_angle=math.radians(rng.uniform(30, 60)),
-            screw_conformity=0.54,
-            nut_conformity=0.54,
             nut=bs.DoubleNut(preload=float(rng.uniform(10, 1000))),
         )
         r = bs.rigidity_iso3408(part, accuracy_factor=0.5)

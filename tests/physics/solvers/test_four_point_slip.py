@@ -18,12 +18,12 @@ from oracles.contact_integral import contact_integral
 from oracles.free_ball import BallResistances
 from oracles.judged import screw
 from oracles.tractions import Coulomb
+from support.screws import of_row
 
 FRICTION = 0.1
 OIL = bs.Lubricant(0.1, 2.2e-8)
 ROWS = json.loads((Path(__file__).parents[2] / "data/contact_integral.json").read_text(encoding="utf-8"))["rows"]
 FOUR = [row for row in ROWS if row["contacts"] == 4]
-STEEL = bs.Material(young_modulus=2.26e11 * (1 - 0.3**2), poisson_ratio=0.3)
 NONE = BallResistances()
 #: What resists a ball beside its slip, as shares of friction times load, and of that times the ball's radius.
 SHARES = BallResistances(0.05, 0.07, 0.01, 0.015, 0.01, 0.03)
@@ -127,17 +127,7 @@ SCREWS = random_screws(60, 6)
 )
 def test_published_slip_torque(row):
     """The independent table asks for 1 %; the worst of the eight is 0.7 % off."""
-    part = screw(
-        pitch_circle_diameter=row["pitch_circle_diameter"],
-        lead=row["lead"],
-        ball_diameter=row["ball_diameter"],
-        screw_conformity=row["conformity"],
-        nut_conformity=row["conformity"],
-        ball_material=STEEL,
-        screw_material=STEEL,
-        nut_material=STEEL,
-    )
-    result = slip(part, row["contact_load"], row["contact_load"])
+    result = slip(of_row(row), row["contact_load"], row["contact_load"])
     assert torque(result) == pytest.approx(row["slip_torque_per_ball"], rel=0.01)
     assert result.converged
 
@@ -149,12 +139,7 @@ def test_there_are_eight_of_them():
 def integrals(ratio, *, resistances=lambda part, load: NONE):
     return [
         contact_integral(
-            part,
-            load,
-            Coulomb(FRICTION),
-            flank_pairs=2,
-            second_load=ratio * load,
-            resistances=resistances(part, load),
+            part, load, Coulomb(FRICTION), flank_pairs=2, second_load=ratio * load, resistances=resistances(part, load)
         )
         for part, load in SCREWS
     ]
@@ -352,8 +337,7 @@ def test_a_long_array_goes_through_in_blocks():
     few = slip(SCREWS.part, SCREWS.load, SCREWS.load / 3)
     many = slip(
         dataclasses.replace(
-            SCREWS.part,
-            **{name: np.tile(value, 700) for name, value in vars(SCREWS.part).items() if np.ndim(value)},
+            SCREWS.part, **{name: np.tile(value, 700) for name, value in vars(SCREWS.part).items() if np.ndim(value)}
         ),
         np.tile(SCREWS.load, 700),
         np.tile(SCREWS.load / 3, 700),

@@ -1,7 +1,6 @@
 """The solver of the lines of pure rolling, against independent ones."""
 
 import dataclasses
-import math
 from typing import NamedTuple
 
 import mpmath
@@ -9,11 +8,11 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import equilibrium, friction
 from ballscrew.physics.laws.torque import Resistances
 from ballscrew.physics.solvers import slip
 from ballscrew.physics.solvers.slip import BallProblem
+from support import strategies
 
 CORRECTED = bs.FrictionModel.corrected()
 BOX = 100_000
@@ -62,38 +61,9 @@ def ball_problem(r, pure_rolling_offset=None):
     return BallProblem(*sides, asked, d_w, r.frame, r.screw_speed, pure_rolling_offset)
 
 
-def box(size=BOX, seed=2005, heaviest=1.5e8):
-    """Random screws, oils and operating points: arrays, so no constructor looks at them.
-
-    The contact load is at most ``heaviest`` N/m² times the ball diameter squared: 1.5e8 is beyond the
-    static rating of any screw.
-    """
-    rng = np.random.default_rng(seed)
-
-    def powers(low, high):
-        return np.exp(rng.uniform(math.log(low), math.log(high), size))
-
-    d_m = rng.uniform(0.010, 0.125, size)
-    d_w = d_m * rng.uniform(0.06, 0.25, size)
-    lead = np.maximum(d_m * rng.uniform(0.05, 1.0, size), 1.05 * d_w)
-    z = rng.integers(5, 301, size).astype(float)
-    alpha = np.radians(rng.uniform(20, 70, size))
-    screw = BallScrew(
-        pitch_circle_diameter=d_m,
-        lead=lead,
-        ball_diameter=d_w,
-        loaded_balls=z,
-        contact_angle=alpha,
-        screw_conformity=rng.uniform(0.505, 0.56, size),
-        nut_conformity=rng.uniform(0.505, 0.56, size),
-        ball_roughness=rng.uniform(0.02e-6, 0.1e-6, size),
-        screw_roughness=rng.uniform(0.05e-6, 0.6e-6, size),
-        nut_roughness=rng.uniform(0.05e-6, 0.6e-6, size),
-    )
-    oil = bs.Lubricant(powers(0.005, 1.0), rng.uniform(1e-8, 2.5e-8, size))
-    load = np.minimum(powers(1.0, 50e3), heaviest * d_w**2 * z * np.sin(alpha))
-    speed = rng.uniform(0, 5000, size) * math.pi / 30 * (rng.random(size) > 0.05)
-    return CORRECTED(screw, oil, axial_load=load, screw_speed=speed)
+def box(size=BOX, seed=2005):
+    """What the corrected model says of random screws, oils and operating points."""
+    return strategies.box(size, seed)(CORRECTED)
 
 
 @pytest.fixture(scope="module")
