@@ -110,7 +110,7 @@ def asked(name):
     given = CaseOptions(settings=list(settings))
     (case,) = (path for every in paths.values() for path in every if path.suffix == ".toml")
     request = Request(files=paths, case=CaseFile(case, given), case_options=given, written=written | options)
-    answer = question.prepare(request).answer(lambda *_: None)
+    answer = question.answer.prepare(request).answer(lambda *_: None)
     return answer.document(), answer.sheet, responses.OF_QUESTIONS[question.name]
 
 
