@@ -35,7 +35,7 @@ HOLDERS = {
     "chart_place.js places": "the charts by their places",
     "chart_place.js seen": "tells which places come into view",
     "chart_place.js sized": "tells which charts have another size",
-    "results.js announcer": "what screen readers were told last",
+    "results.js told": "what screen readers were told last",
     "schema.js schema": "the schema of a case, filled once before anything is shown",
     "server.js awaited": "requests under way, by what was asked: the same is asked once",
     "server.js connection": "whether the server answers",

@@ -320,7 +320,7 @@ def test_netcdf_libraries_missing(monkeypatch, tmp_path):
 
 def test_a_folder_in_the_place_of_a_file(monkeypatch, tmp_path):
     def write_data(folder, report):
-        (folder.path / "data.nc").write_text("new")
+        (folder / "data.nc").write_text("new")
         return []
 
     monkeypatch.setattr(reproduction, "_write", write_data)

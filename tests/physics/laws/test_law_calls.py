@@ -54,7 +54,7 @@ def test_a_fuller_state_keeps_what_is_known(contact):
     ("slot", "given", "said"),
     [
         ("rolling", "houpert", r"model\.rolling: must be a law, not its name \(houpert\) · from "
-         r"ballscrew\.physics\.laws\.contact import houpert_rolling, and give rolling=houpert_rolling"),
+         r"ballscrew\.physics\.laws\.rolling import houpert_rolling, and give rolling=houpert_rolling"),
         ("rolling", "haupert", r'model\.rolling: .* \(haupert\) · did you mean "houpert"\? in a case file'),
         ("film", "hamrock-dowson", r"import HamrockDowson, and give film=HamrockDowson\(\)"),
         ("film", bs.HamrockDowson, r"model\.film: must be a law \(the class HamrockDowson\) · make one of it"),

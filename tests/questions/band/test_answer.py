@@ -10,6 +10,7 @@ from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import BandOptions, compute
 from ballscrew.questions.band.answer import BandResults, document, verdicts
+from ballscrew.questions.run import answer as answer_of_run
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared import schemas
 from support.commands import ROOT
@@ -39,7 +40,7 @@ def test_a_band_is_valid_by_its_schema(answer):
 
 def test_a_band_stands_beside_the_answer_of_the_run(answer):
     """Which it leaves as it is; its verdicts come after those of the run."""
-    alone = plain(document(run(case_file.load(ROOT / "examples" / "olaru2005.toml"))))
+    alone = plain(answer_of_run.document(run(case_file.load(ROOT / "examples" / "olaru2005.toml"))))
     assert answer["results"] == alone["results"]
     assert answer["verdicts"][: len(alone["verdicts"])] == alone["verdicts"]
 
