@@ -78,7 +78,8 @@ def random_ends() -> Iterator[tuple[float, float]]:
     random = Random(46)
     for _ in range(RANDOM_CASES):
         start = random.choice(list(kinds.start_tables()))
-        kind = kinds.kind_of_start(start) if random.random() < 0.7 else random.choice([*NUTS.values(), "single"])
+        own = "row" if start == kinds.PAPER else catalogue()[start].nut
+        kind = own if random.random() < 0.7 else random.choice([*NUTS.values(), "single"])
         tables = kinds.tables_of(start, "reference", kind)
         load = random.choice([0.2, 0.5, 1, 2]) * kinds.case_of(start, "reference", kind).operation.axial_load
         point = {"axial_load": f"{load} N", "screw_speed": f"{random.choice([30, 120, 600, 1500])} rpm"}
