@@ -31,9 +31,13 @@ export function change({ path = "", text = "", unit, start, reset, rebuild }) {
  * @param {string} start
  */
 export async function startFrom(start) {
-  byId("results").setAttribute("aria-busy", "true");
+  const results = byId("results");
+  results.setAttribute("aria-busy", "true");
+  results.dataset.start = start;
+  const { show } = store.state;
   const before = designs.tablesOf(designs.current());
   const after = await designs.startOf(start).catch(() => ({})); // why it is not there is said where it is shown
+  if (results.dataset.start !== start || store.state.show !== show) return; // another was asked for meanwhile
   const paths = designs.OF_USE.flatMap((section) => Object.keys(fieldsOf(section)).map((name) => `${section}.${name}`));
   const kept = paths.flatMap((path) => {
     const [seen, next] = [before, after].map((tables) => unitAt(tables, path));
