@@ -48,7 +48,7 @@ def own(tmp_path):
 
 @pytest.fixture(scope="module")
 def every():
-    return plain(answer.document_of([entry for entries in every_set() for entry in entries]))
+    return plain(answer.documents([entry for entries in every_set() for entry in entries]))
 
 
 def test_a_list_uncalibrated_first_calibrated_last(every):
