@@ -218,11 +218,12 @@ BY_NAME = {
     "walther_slope": (3.0, 4.0),
     "whirling_root": (1.0, 5.0),
 }
-#: The same by equation and name: here numbers count that only thin oils see.
+#: The same by equation and name: here numbers count that only thin oils see, or films as thick as the asperities.
 BY_PLACE = {
-    "viscosity_temperature.kinematic_viscosity_of_walther_number.walther_number": (1.3, 2.5),
-    "viscosity_temperature.walther_number.kinematic_viscosity": (3e-7, 1.5e-6),
-    "viscosity_temperature.walther_number_slope.kinematic_viscosity": (3e-7, 1.5e-6),
+    "friction.asperity_contact_integral.film_parameter": (2.0, 4.5),
+    "rheology.kinematic_viscosity_of_walther_number.walther_number": (1.3, 2.5),
+    "rheology.walther_number.kinematic_viscosity": (3e-7, 1.5e-6),
+    "rheology.walther_number_slope.kinematic_viscosity": (3e-7, 1.5e-6),
 }
 
 

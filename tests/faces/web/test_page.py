@@ -55,7 +55,7 @@ def test_by_keyboard_alone(visit, computed):
     keyboard.press("Tab")
     assert here.page.evaluate("document.activeElement.id") == "f-operation-axial_load"
     keyboard.press("Control+A")
-    keyboard.type("7.5")
+    keyboard.type("7500")
     for _ in range(3):  # the unit and the slider
         keyboard.press("Tab")
     assert here.page.evaluate("document.activeElement.id") == "f-operation-screw_speed"
