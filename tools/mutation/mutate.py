@@ -32,7 +32,7 @@ from warm_process import run_pytest
 
 WORK = ROOT / "out" / "mutation"
 #: Files without results: what is read, drawn, or only described.
-NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py", "options.py")
+NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py")
 #: A run of tests that takes so many times as long as they do, and so many seconds more, has noticed the change.
 LONGER, SECONDS_MORE = 4.0, 60.0
 PYTEST = ("-n0", "-q", "-p", "no:randomly")
@@ -48,21 +48,21 @@ class Room(NamedTuple):
 ROOMS = {
     "axis": Room(
         ("axis/duty_cycle", "questions/duty", "questions/axis"),
-        ("axis", "cases/test_duty_case.py", "faces/cli/test_duty.py", "faces/cli/test_axis.py", "golden",
+        ("axis", "cases/test_duty_case.py", "golden",
          "properties/test_duty.py", "questions/duty", "questions/axis"),
     ),
     "heat": Room(
         ("axis/thermal", "questions/warm_up"),
-        ("axis/thermal", "questions/warm_up", "faces/cli/test_warm_up.py", "golden"),
+        ("axis/thermal", "questions/warm_up", "golden"),
     ),
-    "supports": Room(("axis/supports",), ("axis/supports", "faces/cli/test_axis.py", "golden")),
+    "supports": Room(("axis/supports",), ("axis/supports", "questions/axis", "golden")),
     "motion": Room(("axis/motion",), ("axis/motion", "cases/test_duty_case.py", "cases/test_trajectory_file.py")),
     "exports": Room(("exports", "questions/hand_over"), ("exports", "golden")),
     "selection": Room(("questions/select",), ("questions/select", "golden")),
     "optimisation": Room(("questions/optimise",), ("questions/optimise",)),
     "service": Room(
         ("evidence/service", "questions/service", "questions/condition"),
-        ("evidence/service", "questions/service", "faces/cli/test_service.py", "faces/cli/test_condition.py"),
+        ("evidence/service", "questions/service", "questions/condition"),
     ),
     "calibration": Room(("evidence/calibration",), ("evidence/calibration", "golden")),
     "sizing": Room(("physics/sizing",), ("physics/sizing", "questions/check", "properties/test_life.py")),
@@ -254,7 +254,7 @@ def noticed(change: Change, tests: Sequence[str], copy: Path, seconds: float) ->
 
 def reached_in(room: str) -> Reached:
     """The tests of each line of a room: measured once for its sources and tests as they are, and what tests share."""
-    paths = [ROOT / "tests" / test for test in ROOMS[room].tests if (ROOT / "tests" / test).exists()]
+    paths = [ROOT / "tests" / test for test in ROOMS[room].tests]
     digest = hashlib.sha256()
     tests = [*paths, ROOT / "tests" / "support", *sorted((ROOT / "tests").rglob("conftest.py"))]
     for file in (

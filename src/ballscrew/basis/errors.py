@@ -2,7 +2,7 @@
 
 A line reads ``section.field: what is wrong (value) · remedy``.
 
-Overflow of plain numbers, reported as an error in the input.
+An overflow of plain numbers is such an error, too.
 """
 
 from __future__ import annotations

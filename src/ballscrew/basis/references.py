@@ -3,7 +3,7 @@
 A docstring names its sources by key (``HamrockDowson1977``) and its equations by address
 (``Olaru2005 §5 (23)``: section and number, because the paper uses (22) to (26) twice).
 
-Sources as people read them, made from the BibTeX of the package.
+People read sources as they are made from the BibTeX of the package.
 """
 
 from __future__ import annotations

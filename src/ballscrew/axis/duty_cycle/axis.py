@@ -1,7 +1,4 @@
-"""The axis: what moves, what it rubs on, and how the motor drives the screw.
-
-The motor with its drive: rated and peak torque over speed, by its data sheet.
-"""
+"""The axis and its motor: what moves, what it rubs on, how the motor drives the screw, and its torques."""
 
 from __future__ import annotations
 

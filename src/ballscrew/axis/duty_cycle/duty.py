@@ -1,6 +1,6 @@
 """A duty: what a cycle of motion asks of the motor, what it costs in energy, and what wears.
 
-A duty of one operating point: the nut goes to and fro at one speed, under one load.
+One operating point makes a duty, too: the nut goes to and fro at one speed, under one load.
 """
 
 from __future__ import annotations

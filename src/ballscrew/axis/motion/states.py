@@ -1,9 +1,8 @@
 """States of motion: position, speed and acceleration at instants, each with the time for which it stands.
 
-Instants within phases where a quantity of a motion changes its sign, or is the largest.
-
-Between kinks a quantity is smooth in a part of a phase, and the polynomial through its values there is as good as the
-quadrature of the same nodes: nothing is computed again.
+Among the instants are those within phases where a quantity changes its sign, or is the largest. Between kinks a
+quantity is smooth in a part of a phase, and the polynomial through its values there is as good as the quadrature of the
+same nodes: nothing is computed again.
 """
 
 from __future__ import annotations

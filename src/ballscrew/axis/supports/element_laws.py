@@ -1,6 +1,6 @@
-"""Bearings and guides by the names of their laws, and tables of values checked against the fields of a law.
+"""Bearings and guides by the names of their laws, and by the rows of catalogues.
 
-Rows of catalogues: support units of screws, and seals of guides. What a catalogue does not print is not here.
+Tables of values are checked against the fields of a law. What a catalogue does not print is not in its row.
 """
 
 from __future__ import annotations

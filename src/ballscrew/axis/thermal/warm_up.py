@@ -1,6 +1,6 @@
 """Warming up: temperatures, preload, torque and growth over hours of a duty, and the state in which it ends.
 
-The steady state in which a duty ends, with the stability margin of its thermal loop.
+That state has the stability margin of the thermal loop.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Text of case files as tables: TOML, or the same tables as JSON.
+"""Texts of case files: as tables (TOML, or the same tables as JSON), and numbers in them that could be two.
 
-Texts of a case file that could be two numbers: ``"3.000 N"`` is 3 N, and 3000 N where a point parts thousands.
+Such a text is ``"3.000 N"`` is 3 N, and 3000 N where a point parts thousands.
 
 A point is that of decimals, in this package and in most programs, and trailing zeros are common: ``"6.350 mm"``. So
 nothing is refused, and it is said only where the other number is plausible and the one that is read is not; of load,

@@ -1,6 +1,7 @@
-"""The named calibration of a case: chosen in the file or on the command line, put into the model, written out.
+"""Named calibrations and the rules of makers, of a case.
 
-The rules of makers on the nut of a case: its torque without load and seals, and which rule is that of its make.
+A calibration is chosen in the file or on the command line, put into the model, and written out. Rules give the torque
+of the nut without load and seals; one of them is that of its make.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Uncertain inputs of a case: those that its file gives, and defaults for those rarely known.
 
-Distributions that a table of surroundings gives its numbers: ``ball_conductance = "4 ± 1 W/K"``.
+A table of surroundings gives its numbers distributions, too: ``ball_conductance = "4 ± 1 W/K"``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The reader of a case: its tables in SI, validated once, and the faults that are found in them.
 
-Options of the command line that set fields of a case; faults of such fields name the option.
+Faults of a field that an option of the command line sets name the option.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Inputs that can be varied and outputs that can be asked for: names, units and meanings.
+"""Inputs that can be varied and outputs that can be asked for: names, units and meanings, and axes of values to vary.
 
-Axes: values to vary as labelled arrays, their ends, and the faults in them.
+Axes are labelled arrays; faults in them are found here.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Description of a store: its blocks, and the JSON document that identifies its plan.
+"""Plan and files of a store: its blocks, the JSON document that identifies its plan, rows with checksums, and the lock.
 
-Files of a store: rows with checksums, entries that another user may have prepared, and the lock of who writes.
+The lock is of who writes; entries that another user may have prepared are refused.
 
 Rows are CSV: size and checksum of every chunk of a block, and counts of false truth values. Each ends with a checksum
 of itself, so that a damaged row is not taken for a block. All checksums are bound to the plan, by its digest: what was

@@ -1,6 +1,6 @@
 """Sweeps: one model over many operating points and designs, as a labelled dataset.
 
-Friction after a reversal as a labelled dataset over the angle of the screw.
+Friction after a reversal is such a dataset over the angle of the screw.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Parts of a band: evaluated samples, the factors of other laws, outputs derived from a torque, and faults.
 
-Bands at many points: the same random numbers at all of them, and one evaluation of the samples of many points.
+At many points the random numbers are the same, and the samples of many points are evaluated at once.
 """
 
 from __future__ import annotations

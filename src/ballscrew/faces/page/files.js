@@ -26,7 +26,7 @@ export function setUp() {
     event.preventDefault();
     const all = [...(event.dataTransfer?.files ?? [])];
     const logs = all.filter(({ name }) => LOG.test(name));
-    open(logs.length && fit(logs[0]) ? all.filter((file) => !logs.includes(file)) : all);
+    open(logs.length && fit(logs[0]) ? all.filter((file) => file !== logs[0]) : all);
   });
   setUpKeeping();
 }

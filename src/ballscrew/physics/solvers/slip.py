@@ -1,11 +1,10 @@
-r"""Protocol of slip laws: contact input, and the slip at which the ball is in balance.
+r"""Protocol of slip laws: contact input, and the slip at which the ball is in balance; forces by strips of the ellipse.
 
-The forces of a slipping contact, as sums over strips of its ellipse.
-
-Friction has its full strength everywhere and the direction of the slip: the slope of friction,
-load and slip speed by a freedom of the slip is the force that goes with it. A strip across the
-ellipse slips with the root-mean-square of what happens in it
-(:func:`~ballscrew.physics.equations.slip.cell_slip_speed`), which keeps all slopes smooth.
+The forces of a slipping contact are sums over strips of its ellipse. Friction has its full strength
+everywhere and the direction of the slip: the slope of friction, load and slip speed by a freedom of
+the slip is the force that goes with it. A strip across the ellipse slips with the root-mean-square
+of what happens in it (:func:`~ballscrew.physics.equations.slip.cell_slip_speed`), which keeps all
+slopes smooth.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""One style for all figures, and the way they are saved.
+"""One style for all figures, and the way they are saved; and some of many points.
 
 Nothing outside decides how a figure looks: a personal matplotlibrc is set aside, identifiers in
 SVG files come from a fixed salt, and no file carries a date or a version.
@@ -24,11 +24,11 @@ from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.output.sheet import Colour
 from ballscrew.basis.output.text import escaped
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # matplotlib is slow to import: only where a picture is drawn
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-
+Numbers = NDArray[np.float64]
 #: Colours of Okabe and Ito, told apart with any colour vision.
 BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW = (
     "#0072B2",
@@ -252,9 +252,6 @@ def _box(text: str) -> str:
 def named(text: str, words: str) -> str:
     """An SVG with its name in words, for those who cannot see it."""
     return re.sub(r"<svg([^>]*)>", lambda m: f'<svg{m[1]} role="img">\n<title>{escaped(words)}</title>', text, count=1)
-
-
-Numbers = NDArray[np.float64]
 
 
 def some(places: NDArray[np.int64], most: int) -> NDArray[np.int64]:

@@ -8,7 +8,7 @@ import { fieldFor, labelIn } from "../fields.js";
 import { drop, keptJob } from "../jobs.js";
 import { FIELDS, LISTS, OF_MASS } from "../needs.js";
 import * as schema from "../schema.js";
-import { get, sendJson } from "../server.js";
+import { get, Latest, sendJson } from "../server.js";
 import { valueAt } from "../state.js";
 import { store } from "../store.js";
 import { nameOfCheck } from "../names.js";
@@ -55,6 +55,10 @@ export function setUp(holder) {
     },
     isLarge: () => true,
     about: () => about,
+    begun: () => {
+      coming = [];
+      counted.hidden = true;
+    },
     news: ({ rows }) => {
       if (!rows.length) return;
       coming.push(.../** @type {any[]} */ (rows));
@@ -92,6 +96,7 @@ export function setUp(holder) {
   let about = {};
   /** @type {import("./candidates.js").Row[]} */
   let coming = [];
+  const requests = new Latest();
   let withTable = true;
   /** What a selection costs, and the inputs that somebody has said may stay empty. */
   let [cost, agreed] = ["", ""];
@@ -181,15 +186,19 @@ export function setUp(holder) {
   }
 
   async function ask() {
+    asked.cancel();
     counted.hidden = true;
-    coming = [];
+    const signal = requests.begin();
+    asked.line.replaceChildren(element("p", {}, "computing …"));
     const table = withTable ? store.state.table?.file : undefined;
     try {
-      about = await tables(need());
-      const body = { need: about, ...(table && { table }) };
-      if (await isAgreed(body)) counted.hidden = !asked.follow(body, 0);
+      const made = await tables(need());
+      const body = { need: made, ...(table && { table }) };
+      if (signal.aborted || !(await isAgreed(body, signal))) return;
+      about = made;
+      if (asked.follow(body, 0)) counted.hidden = false;
     } catch (error) {
-      asked.refuse(error);
+      if (!signal.aborted) asked.refuse(error);
     }
   }
 
@@ -197,10 +206,11 @@ export function setUp(holder) {
    * Test whether to start: a need that leaves open what checks want is asked about first, once.
    *
    * @param {object} body
+   * @param {AbortSignal} signal
    */
-  async function isAgreed(body) {
+  async function isAgreed(body, signal) {
     /** @type {SelectPlan} */
-    const plan = await sendJson("select/plan", body);
+    const plan = await sendJson("select/plan", body, signal);
     const inputs = plan.unasked.map(({ input }) => labelOf(input)).join(", ");
     cost = `Candidates: ${plan.candidates}, ${units.digits(Math.max(1, plan.seconds), 2)} s of a processor at most.`;
     if (!inputs || inputs === agreed) return true;
@@ -210,7 +220,6 @@ export function setUp(holder) {
       agreed = inputs;
       ask();
     });
-    asked.stop();
     place([]);
     asked.line.replaceChildren(
       element(
@@ -228,7 +237,7 @@ export function setUp(holder) {
     const kept = keptJob(ADDRESS);
     if (!kept) return;
     if (JSON.stringify(await tables(need())) === JSON.stringify(kept.about)) asked.resume();
-    else drop(ADDRESS);
+    else if (keptJob(ADDRESS)?.id === kept.id) drop(ADDRESS); // none that was begun meanwhile
   }
 
   /**

@@ -32,6 +32,7 @@ const RESUMED = "job ";
  * @property {(body: object) => boolean} [isLarge] tests whether a body is too large to keep answers by it
  * @property {boolean} [isShort] tests whether it takes so short that no job is needed
  * @property {() => any} [about] what its answer is shown with, and is not part of it
+ * @property {() => void} [begun] called when it is asked
  * @property {(job: JobDocument) => void} [news] gets news of its job
  * @property {() => string} [doing] what is said while it is computed
  */
@@ -50,6 +51,7 @@ export function question({
   isLarge = () => false,
   isShort = false,
   about,
+  begun,
   news,
   doing,
 }) {
@@ -91,6 +93,13 @@ export function question({
     asked = "";
   }
 
+  /** Ask no more, and say nothing. */
+  function cancel() {
+    stop();
+    mark(false, true);
+    line.replaceChildren();
+  }
+
   /** @param {boolean} isBusy @param {boolean} isEarlier */
   function mark(isBusy, isEarlier) {
     result.setAttribute("aria-busy", String(isBusy));
@@ -99,9 +108,8 @@ export function question({
 
   /** @param {object | undefined} body nothing of one that is not on the page any more */
   function sayProgress(body) {
-    const cancel = () => {
-      stop();
-      mark(false, true);
+    const giveUp = () => {
+      cancel();
       line.replaceChildren(element("p", {}, "Cancelled. ", earlier()));
       if (!body) return;
       const again = () => follow(body, 0);
@@ -109,7 +117,7 @@ export function question({
       line.firstElementChild?.append(retry);
       retry.focus();
     };
-    const shown = progress(cancel, doing ? { doing: doing() } : {});
+    const shown = progress(giveUp, doing ? { doing: doing() } : {});
     end = shown.end;
     told = shown.told;
     line.replaceChildren(...shown.parts, element("span", { class: "small" }, earlier()));
@@ -167,6 +175,7 @@ export function question({
 
   /** @param {string} key @param {object | undefined} body @param {number} rest */
   function begin(key, body, rest) {
+    begun?.();
     asked = key;
     told = () => {};
     mark(true, true);
@@ -175,7 +184,9 @@ export function question({
     signal.addEventListener("abort", () => clearTimeout(patience));
     const hear = (/** @type {JobDocument} */ job) => {
       told(job);
-      if (!signal.aborted) news?.(job);
+      if (signal.aborted || !news) return;
+      if (job.rows.length) answered = ""; // they stand in the place of the answer before
+      news(job);
     };
     return { options: { place: address, signal, told: hear } };
   }
@@ -253,5 +264,5 @@ export function question({
     line.replaceChildren(...(isEarlier ? [element("p", {}, earlier())] : []));
   }
 
-  return { head, line, result, follow, compare, resume, refuse, stop, showAgain };
+  return { head, line, result, follow, compare, resume, refuse, cancel, showAgain };
 }
