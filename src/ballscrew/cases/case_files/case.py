@@ -138,6 +138,11 @@ class Case(Displayed):
     bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])
 
     @property
+    def bearings_by_name(self) -> Mapping[str, MountedBearing]:
+        """The bearings of the shaft by the names that their friction has."""
+        return {bearing.name: bearing for bearing in self.bearings.values()}
+
+    @property
     def nut(self) -> Nut | None:
         """The nut with its preload, bodies and losses; None for a row of equal balls and nothing else."""
         nut = self.screw.nut

@@ -34,6 +34,7 @@ from ballscrew.cases.schema.duty_schema import (
     SUPPORT_TABLES,
     duty_sections,
     efficiency_field,
+    one_of,
     support_sections,
 )
 from ballscrew.cases.schema.fields import (
@@ -297,7 +298,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
             required=False,
             uncertain=fields_of(FrictionModel),
             name=(model_name, Field(default=None, json_schema_extra={"default": DEFAULT_MODEL})),
-            calibration=(_one_of((*calibrations(), BY_MAKE), "named calibration, or that of the row's make"), None),
+            calibration=(one_of((*calibrations(), BY_MAKE), "named calibration, or that of the row's make"), None),
             efficiency=efficiency_field(),
             **{slot: _slot(slot) for slot in LAWS},
         ),
@@ -307,7 +308,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
             DoubleNut,
             required=False,
             uncertain=NUT_FIELDS,
-            type=(_one_of(NUTS, "kind of nut"), None),
+            type=(one_of(NUTS, "kind of nut"), None),
             spacer_balls=(spacers, None),
             set_at_rest=(at_rest, None),
             preload=(
@@ -330,17 +331,12 @@ def sections() -> Mapping[str, type[BaseModel]]:
             fields_of(Installation),
             Installation,
             required=False,
-            ends=(_one_of(ENDS, "how the ends of the shaft are held"), None),
+            ends=(one_of(ENDS, "how the ends of the shaft are held"), None),
         ),
         "limits": section_of("Limits", fields_of(Limits), Limits, required=False),
         **duty_sections(),
         **support_sections(),
     }
-
-
-def _one_of(names: Iterable[str], meaning: str) -> Any:
-    """A text that must be one of these names; the check is that of whoever looks the name up."""
-    return Annotated[str, WithJsonSchema({"type": "string", "enum": list(names), "description": meaning})]
 
 
 #: A motion stands in for an operating point, and the rule of one efficiency knows no oil.

@@ -91,7 +91,7 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
             of_motions,
             Trapezoid,
             required=False,
-            kind=(_one_of((*MOTIONS, TRAJECTORY), "kind of motion"), None),
+            kind=(one_of((*MOTIONS, TRAJECTORY), "kind of motion"), None),
             file=(Annotated[str, Field(description="table of a recorded motion, beside the case file")], None),
             segment=(
                 Annotated[
@@ -116,7 +116,7 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
             Surroundings,
             required=False,
             uncertain=VARIED,
-            bracing=(_one_of(BRACINGS, "how the halves of a nut are braced: pushed apart, or together"), None),
+            bracing=(one_of(BRACINGS, "how the halves of a nut are braced: pushed apart, or together"), None),
         ),
     }
 
@@ -142,7 +142,8 @@ def _flag(meaning: str) -> Any:
     return Annotated[bool, Field(strict=True, description=meaning)]
 
 
-def _one_of(names: Iterable[str], meaning: str) -> Any:
+def one_of(names: Iterable[str], meaning: str) -> Any:
+    """A text that must be one of these names; the check is that of whoever looks the name up."""
     return Annotated[str, WithJsonSchema({"type": "string", "enum": list(names), "description": meaning})]
 
 
@@ -161,7 +162,7 @@ def support_sections() -> Mapping[str, type[BaseModel]]:
         SupportBearing,
         required=False,
         uncertain=UNCERTAIN,
-        law=(_one_of(BEARING_LAWS, "law of the friction of the bearing, contacts if left out"), None),
+        law=(one_of(BEARING_LAWS, "law of the friction of the bearing, contacts if left out"), None),
         catalogue=(_text("name of a support unit of a catalogue; the other fields then override it"), None),
         **_oil(),
     )
@@ -174,7 +175,7 @@ def support_sections() -> Mapping[str, type[BaseModel]]:
             LinearGuide,
             required=False,
             uncertain=UNCERTAIN,
-            law=(_one_of(GUIDE_LAWS, "law of the friction of the guides, maker if left out"), None),
+            law=(one_of(GUIDE_LAWS, "law of the friction of the guides, maker if left out"), None),
             catalogue=(_text("name of a carriage of a catalogue; the other fields then override it"), None),
             **_oil(),
         ),
@@ -183,7 +184,7 @@ def support_sections() -> Mapping[str, type[BaseModel]]:
 
 def _oil() -> dict[str, Any]:
     return {
-        "grade": (_one_of(grades(), "grade of its oil, or of the base oil of its grease"), None),
+        "grade": (one_of(grades(), "grade of its oil, or of the base oil of its grease"), None),
         "oil": (_text("name of its oil or grease in the library; left out, it has the oil of the screw"), None),
         "oil_file": (_text("table with the oil, beside the case file, in place of the library"), None),
     }

@@ -33,7 +33,7 @@ from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.physics.friction.loaded_balls import loads_of
 
 _OF_LOG = "so in the row that starves the most, by the numbers of the fit"
-_FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
+FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
 #: What each row of a log has of its own.
 _OF_ROWS = (*OPERATION, TEMPERATURE.name)
 #: A share of outliers beyond which they are no longer a few.
@@ -283,7 +283,7 @@ def _trends(fit_result: FitResult) -> list[Record]:
         if abs(off) > max(TREND_ERRORS * trend.errors[worst], TREND_SHARE * friction):
             text = (
                 f"friction is {'over' if off > 0 else 'under'}estimated by {units.percent(abs(off) / friction)} at the "
-                f"{_FIFTHS[worst]} fifth of the {name.replace('_', ' ')}: the model misses something that depends on it"
+                f"{FIFTHS[worst]} fifth of the {name.replace('_', ' ')}: the model misses something that depends on it"
             )
             records.append(Record.warning("fit.trend", name, text, off, TREND_SHARE * friction, "N m"))
     return records

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -42,6 +42,7 @@ from ballscrew.questions.duty.compute import DutyReport, duty
 from ballscrew.questions.run import sheet as run_sheet
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.shared.check_lines import check_table
+from ballscrew.questions.shared.question import Done
 
 if TYPE_CHECKING:
     from ballscrew.questions.duty.band import DutyBandReport
@@ -89,7 +90,6 @@ def _is_date(text: str) -> bool:
         return False
 
 
-Done = Callable[[int, int], None]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
 _ANSWERED, _BANDED, _DRAWN, ALL = 5, 60, 85, 100
 #: Pages at most, and how many more a cycle of motion, the stiffness over its stroke and the heat may take.

@@ -15,8 +15,9 @@ from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.cases.case_files.case import Case
 from ballscrew.faces.report import contents, several
-from ballscrew.faces.report.contents import ALL, Done, Heading
+from ballscrew.faces.report.contents import ALL, Heading
 from ballscrew.faces.sheets.report_blocks import Report, as_data
+from ballscrew.questions.shared.question import Done
 
 #: Sizes of letters that are tried, in points: the first with which no page is nearly blank, and no page too many.
 _SIZES = ("9.6", "9.2", "8.8", "8.4", "8", "7.6")

@@ -13,7 +13,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.report import contents, input_tables
-from ballscrew.faces.report.contents import ALL, Done
+from ballscrew.faces.report.contents import ALL
 from ballscrew.faces.sheets import report_blocks
 from ballscrew.faces.sheets.report_blocks import (
     Block,
@@ -35,6 +35,7 @@ from ballscrew.questions.compare import answer
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.run.sheet import meaning
 from ballscrew.questions.shared import check_lines
+from ballscrew.questions.shared.question import Done
 
 #: Pages at most of what is side by side, and of each design.
 _PAGES, _PAGES_OF_EACH = 2, 2

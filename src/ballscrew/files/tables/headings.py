@@ -37,7 +37,8 @@ NOTHING = ("", "-", "–", "—")
 #: The unit of a share.
 PERCENT = "%"
 
-_BRACKETED = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
+#: A heading with its unit in brackets.
+BRACKETS = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 _WORD = re.compile(r"[^\W_]+")
 #: Units as headings have them, and as they stand in case files.
 _UNITS = {
@@ -148,7 +149,7 @@ def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | No
     if not isinstance(cell, str) or not 0 < len(cell) <= LONGEST_HEADING:
         return None
     written = " ".join(cell.split())
-    bracketed = _BRACKETED.fullmatch(written)
+    bracketed = BRACKETS.fullmatch(written)
     name, unit = (bracketed["name"], bracketed["unit"].strip()) if bracketed else (written, "")
     meant = [column for column in columns if column.is_named(name)]
     if len(meant) > 1 and unit:  # "T [N m]" is no time

@@ -19,6 +19,7 @@ from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.files.tables import cells
 from ballscrew.files.tables.headings import (
+    BRACKETS,
     NEEDS_UNIT,
     NO_COLUMN,
     SAME_MEANING,
@@ -146,8 +147,6 @@ _DATES: Mapping[str, re.Pattern[str]] = {
     "%d.%m.%Y %H:%M:%S": re.compile(r"\d\d?\.\d\d?\.\d{4} \d\d?:\d\d:\d\d"),
     CLOCK: re.compile(r"\d\d?:\d\d:\d\d(?:[.,]\d+)?"),
 }
-#: A heading with its unit in brackets.
-BRACKETS = re.compile(r"(?P<name>.*?)[\s_]*[\[(](?P<unit>[^\[\]()]*)[\])]")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -21,11 +21,10 @@ from numpy.typing import NDArray
 from ballscrew.basis import units
 from ballscrew.basis.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
 from ballscrew.files.tables.cells import NOT_A_NUMBER, column_numbers, is_missing, shown, value_of
-from ballscrew.files.tables.headings import Heading, bare, known_heading_of
+from ballscrew.files.tables.headings import BRACKETS, Heading, bare, known_heading_of
 from ballscrew.files.tables.sheets import Record, is_error, unreadable
 from ballscrew.files.torque_logs.cleaning import HELD
 from ballscrew.files.torque_logs.columns import (
-    BRACKETS,
     CLOCK,
     COLUMNS,
     NO_LOAD,

@@ -247,7 +247,7 @@ def _imbalance(of: Mapping[str, Any]) -> Mapping[str, Any]:
     }
 
 
-_PERCENT = {"percent": Shown("percent", digits=3)}
+PERCENT = {"percent": Shown("percent", digits=3)}
 #: A warning where a model's own torque and losses differ by more than rounding and slow convergence explain.
 IMBALANCE = Judgement(
     id="model.power_balance",
@@ -262,12 +262,12 @@ IMBALANCE = Judgement(
             "on the nut falls below zero: the reactions of the model do not balance; the model corrected has "
             "them in balance",
             "is_below_zero",
-            _PERCENT,
+            PERCENT,
         ),
         Sentence(
             "the power of the torque differs by up to {percent}% from what the parts dissipate: the reactions "
             "of the model do not balance; the model corrected has them in balance",
-            places=_PERCENT,
+            places=PERCENT,
         ),
     ),
 )

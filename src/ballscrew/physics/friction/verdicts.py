@@ -28,7 +28,7 @@ from ballscrew.physics.components.nut import PRELOAD
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction import directions, validity
 from ballscrew.physics.friction.result import QUADRANTS, FrictionResult
-from ballscrew.physics.friction.validity import IMBALANCE, VALIDITY
+from ballscrew.physics.friction.validity import IMBALANCE, PERCENT, VALIDITY
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: The largest share of the dynamic load rating by which vendors preload a nut (Rexroth2006: 2 to 10 %).
@@ -209,7 +209,6 @@ def _preload_above_rating(of: Mapping[str, Any]) -> Mapping[str, Any]:
 
 # -- tables ---------------------------------------------------------------------------------------
 
-_PERCENT = {"percent": Shown("percent", digits=3)}
 _ROLLS = ("axial_load", "screw_speed", "rolling_share", "screw_torque")
 
 #: The rule of the nut's own maker, where the model is far from it.
@@ -379,7 +378,7 @@ VERDICTS: tuple[Judgement, ...] = (
         sentences=(
             Sentence(
                 "skids: friction carries only {percent}% of what resists the rolling of a ball",
-                places=_PERCENT,
+                places=PERCENT,
             ),
         ),
     ),
@@ -389,7 +388,7 @@ VERDICTS: tuple[Judgement, ...] = (
         formula=_skids_at_rest,
         needs=_ROLLS,
         holds=False,
-        sentences=(Sentence("at rest: friction carries only {percent}% of what resists rolling", places=_PERCENT),),
+        sentences=(Sentence("at rest: friction carries only {percent}% of what resists rolling", places=PERCENT),),
     ),
     RULE_OF_MAKER,
     PRELOAD_LOST,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,7 @@ from ballscrew.physics.solvers.load_distribution import preload_of
 from ballscrew.questions.band import BandOptions
 from ballscrew.questions.compare import compute
 from ballscrew.questions.shared.option_values import faults_named, flags_of
+from ballscrew.questions.shared.question import Done
 from ballscrew.questions.warm_up.band import inputs_of
 from ballscrew.questions.warm_up.compute import SERIES
 from ballscrew.questions.warm_up.self_heating import SelfHeating
@@ -109,7 +110,6 @@ PRESSING = frozenset({"ball_force", "ball_chain", "ball_to_ball_force"})
 LEVEL = 0.95
 #: Flags of the command line by the fields in which the analysis finds faults.
 FLAGS = flags_of("band", BandOptions)
-Done = Callable[[int, int], None]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

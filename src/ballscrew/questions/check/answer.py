@@ -29,7 +29,8 @@ from ballscrew.questions.run.answer import results
 from ballscrew.questions.run.compute import NutState, Run, with_nut
 from ballscrew.questions.shared.check_lines import source_document, with_unlikely
 from ballscrew.questions.shared.declared import numbers
-from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of, tables_of_row
+from ballscrew.questions.shared.every_row import OfRows, copied, each, place_of, tables_of_row
+from ballscrew.questions.shared.question import Done
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1

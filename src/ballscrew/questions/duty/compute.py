@@ -36,7 +36,7 @@ from ballscrew.basis.quantities import (
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.physics.components.nut import OversizeBallNut
-from ballscrew.physics.components.operating_state import FrictionElement, OperatingState
+from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.balls import MECHANISMS
@@ -631,7 +631,7 @@ def _report(case: Case, cycle: Callable[..., axis_duty.Duty], *, recorded: bool)
     assert case.motion is not None
     driver = case.model if case.efficiency is None else case.efficiency
     result = cycle(
-        driver, case.screw, case.lubricant, axis=axis, motion=case.motion, also=beside(case), recorded=recorded
+        driver, case.screw, case.lubricant, axis=axis, motion=case.motion, also=case.bearings_by_name, recorded=recorded
     )
     rating, source = _rating(case)
     screw = _in_motion(case, result)
@@ -671,11 +671,6 @@ def duty(case: Case, *, recorded: bool = False) -> DutyReport:
     )
     _ = (report.cycle_life.revolutions, report.smoothing, report.rule.torque_rms, report.rule.torque_peak)
     return report
-
-
-def beside(case: Case) -> Mapping[str, FrictionElement]:
-    """The elements of a case on the shaft beside the screw, by name."""
-    return {bearing.name: bearing for bearing in case.bearings.values()}
 
 
 def _rating(case: Case) -> tuple[float | None, str]:

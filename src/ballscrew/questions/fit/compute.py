@@ -36,9 +36,10 @@ from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.fit import DEFAULT_FREE, FitOptions
 from ballscrew.questions.shared import every_row
-from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
+from ballscrew.questions.shared.every_row import OfRows, RowCase
 from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag
-from ballscrew.questions.warm_up.compute import assumed_of, bearings_of, check_oil, length_of, stroke_of
+from ballscrew.questions.shared.question import Done
+from ballscrew.questions.warm_up.compute import assumed_of, check_oil, length_of, stroke_of
 
 #: Options of the command line by the fields in which the fit finds faults.
 _FLAGS: Mapping[str, str] = {"fit.limits.": "--limits ", **flags_of("fit", FitOptions)}
@@ -231,7 +232,7 @@ def warm_log(case: Case, log: TorqueLog, kind: Kind = "unknown") -> tuple[Torque
                 axial_load=load,
                 screw_speed=float(one),
                 stroke=stroke,
-                also=bearings_of(case),
+                also=case.bearings_by_name,
             ),
             surroundings,
             shaft_length=length,

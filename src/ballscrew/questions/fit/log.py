@@ -20,8 +20,9 @@ from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.questions.fit import FitMotionOptions, FitOptions
 from ballscrew.questions.shared import every_row
-from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
+from ballscrew.questions.shared.every_row import OfRows, RowCase
 from ballscrew.questions.shared.option_values import assignments, read
+from ballscrew.questions.shared.question import Done
 
 #: The quantities that describe a test.
 CONDITIONS = ("axial_load", "screw_speed", "temperature")

@@ -41,6 +41,7 @@ from ballscrew.basis.quantities import Info, Quantity, quantities_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.diagnostics import FIFTHS
 from ballscrew.evidence.calibration.fit_result import Estimate
 from ballscrew.evidence.calibration.next_test import NextTest
 from ballscrew.evidence.calibration.problem import TORQUE_WANDER
@@ -64,7 +65,6 @@ _LEAST_PART = 0.01
 _MOST_POINTS = 4000
 #: The axis of residuals reaches so many times their usual size.
 _WIDEST = 5
-_FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
 #: Kinds of rows of a fit.
 KINDS = ("fitted", "held_out", "outlier")
 _COLOURS: Mapping[str, Colour] = {"fitted": "sky", "held_out": "orange", "outlier": "grey"}
@@ -238,7 +238,7 @@ def _trends(model: CalibratedModel) -> Table:
         )
     size = words(Number(typical, _TORQUE, 3))
     note = f"Predicted less measured, means by fifths of the rows, in % of {size}."
-    return Table("residuals", "Residuals", ("", *_FIFTHS), rows, [note])
+    return Table("residuals", "Residuals", ("", *FIFTHS), rows, [note])
 
 
 def _next_test(report: FitReport) -> list[str]:

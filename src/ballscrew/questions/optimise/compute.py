@@ -32,6 +32,7 @@ from ballscrew.questions.select.candidates import Starved
 from ballscrew.questions.select.need import Need, need_of
 from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_LENGTH, front, shaft_length
 from ballscrew.questions.shared.every_row import copied
+from ballscrew.questions.shared.question import Done
 
 Numbers = NDArray[np.float64]
 #: Costs, all to be small, and constraints, at most zero where they hold, of designs: one row each.
@@ -143,8 +144,6 @@ def spread(costs: Numbers, most: int) -> list[int]:
     return sorted(taken)
 
 
-#: Told how many designs of how many are evaluated: those of the search, and members in full.
-Done = Callable[[int, int], None]
 #: Seconds of one processor: for recording and compiling, and for a design, of rigid bodies, of each sample of a
 #: quantile, of elastic bodies, and in full. They say what an optimisation costs and decide nothing.
 SECONDS: Mapping[str, float] = {"compiling": 5.0, "rigid": 6e-5, "sample": 2e-6, "elastic": 2e-3, "member": 0.04}

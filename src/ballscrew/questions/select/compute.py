@@ -13,13 +13,12 @@ import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.quantities import Duration, Info, Torque, quantities_of
+from ballscrew.basis.quantities import Duration, Info, Torque
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel
 from ballscrew.physics.sizing.checks import failing, verdict_of
 from ballscrew.physics.sizing.ratings import NUTS
-from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.duty import compute
 from ballscrew.questions.select.candidates import (
     LENGTH_OF_STROKE,
@@ -34,10 +33,11 @@ from ballscrew.questions.select.candidates import (
     variants,
 )
 from ballscrew.questions.select.need import Need, need_of
-from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_OBJECTIVES, front, objectives_named
+from ballscrew.questions.select.requirements import LIFT_OFF, OBJECTIVES, USUAL_OBJECTIVES, front, objectives_named
 from ballscrew.questions.shared.check_lines import with_unlikely
 from ballscrew.questions.shared.declared import FINITE
-from ballscrew.questions.shared.every_row import Done, each
+from ballscrew.questions.shared.every_row import each
+from ballscrew.questions.shared.question import Done
 
 #: Candidates of the catalogue whose friction is computed unless the list is to be complete: more take minutes.
 MOST_JUDGED = 150
@@ -338,9 +338,6 @@ def costs_of(candidate: Candidate, objectives: Sequence[str]) -> list[float]:
     return [OBJECTIVES[name].sign * candidate.objectives[name] for name in objectives]
 
 
-_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
-
-
 def verdict(result: Candidate) -> str:
     """All checks in a few words, with the utilisation of those that fail."""
     if result.complete:
@@ -351,7 +348,7 @@ def verdict(result: Candidate) -> str:
     text = with_unlikely(said, result.case)
     limit = result.rigid_lift_off_load
     if limit is not None:
-        text += f"; preload lost (rigid bodies: above {units.shown(limit, _LIFT_OFF)})"
+        text += f"; preload lost (rigid bodies: above {units.shown(limit, LIFT_OFF)})"
     return text if result.valid else f"{text}; outside the model's validity"
 
 

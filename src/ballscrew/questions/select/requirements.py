@@ -180,7 +180,7 @@ def front(costs: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 #: The checks of :func:`by_loads`.
 BY_LOADS = ("preload", "remaining_preload", "inertia", "step")
-_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
+LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 _LEFT = "preload that the largest load leaves on the relieved half or flank"
 _NO_PRELOAD = "a preload is asked for, and this nut has none: name the kinds of nuts that have one"
 _RIGIDITY = quantities_of(AxialRigidity)["nut"]
@@ -241,7 +241,7 @@ def kept_preload(preload: Force, largest_load: Force, balls: BallLoads) -> Check
     holds = left > 0
     message = (
         "preload that the largest load leaves on the relieved half or flank: some; rigid bodies lose it above "
-        f"{units.shown(limit, _LIFT_OFF)}"
+        f"{units.shown(limit, LIFT_OFF)}"
     )
     if not holds and not limit <= abs(largest_load):  # what rigid bodies would bear says nothing here
         message = _LEFT

@@ -88,8 +88,7 @@ def source_document(check: Check) -> dict[str, Any]:
     """The source of a check as it stands in JSON, with its words where it was not read; nothing of a check without."""
     if check.source is None:
         return {}
-    said = QUALIFICATIONS[check.source]
-    return {"source": check.source, "source_text": None if said is None else said}
+    return {"source": check.source, "source_text": QUALIFICATIONS[check.source]}
 
 
 _LAWS = {

@@ -20,11 +20,10 @@ from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.ratings import NUTS, lists_preload
+from ballscrew.questions.shared.question import Done
 
 T = TypeVar("T")
 R = TypeVar("R")
-#: Told how many rows of how many are done.
-Done = Callable[[int, int], None]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -11,7 +11,6 @@ import numpy as np
 from ballscrew.axis.duty_cycle.duty import Duty, cycle, to_and_fro
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.motion.states import Numbers
-from ballscrew.axis.supports.bearing import MountedBearing
 from ballscrew.axis.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL, Network
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
@@ -278,7 +277,7 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
         problem = "knows no oil, so that nothing changes as it warms up"
         raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
     check_oil(case)
-    also = bearings_of(case)
+    also = case.bearings_by_name
     if case.motion is not None and (axis := case.turning_axis) is not None:
         return cycle(case.model, case.screw, case.lubricant, axis=axis, motion=case.motion, also=also), None
     stroke = stroke_of(case, surroundings)
@@ -293,11 +292,6 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
         also=also,
     )
     return duty, stroke
-
-
-def bearings_of(case: Case) -> Mapping[str, MountedBearing]:
-    """The bearings of a case by the names that their friction has."""
-    return {bearing.name: bearing for bearing in case.bearings.values()}
 
 
 def stroke_of(case: Case, surroundings: Surroundings) -> Length:

@@ -26,7 +26,6 @@ from ballscrew.questions.shared.declared import from_attributes
 from ballscrew.questions.warm_up.compute import (
     EQUILIBRIUM,
     assumed_of,
-    bearings_of,
     check_oil,
     duty_of,
     length_of,
@@ -238,7 +237,7 @@ def swept(
         shaft_length=length_of(case, surroundings),
         outputs=outputs,
         done=done,
-        also=bearings_of(point),
+        also=point.bearings_by_name,
     )
     network = steady.network
     assumed = [] if network is None else assumed_of(case, surroundings, network, stroke)
