@@ -15,7 +15,7 @@ from ballscrew.questions.select import candidates, requirements
 from ballscrew.questions.select.answer import need_document
 from ballscrew.questions.select.candidates import Candidate, Variant
 from ballscrew.questions.select.compute import Selection, ranked
-from ballscrew.questions.select.need import need_of, with_motion
+from ballscrew.questions.select.need import NeedReader, need_of
 from ballscrew.questions.select.requirements import OBJECTIVES, Requirements, front, kept_preload, preload_used
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
@@ -338,9 +338,9 @@ def test_a_mass_needs_all_of_its_motion(missing):
     for name, value in MOTION.items():
         if name not in missing:
             tables[places[name]][name] = value
-    faults = []
-    notes = with_motion(tables, faults)
-    assert [fault.where for fault in faults] == [
+    reader = NeedReader(tables)
+    reader.make_motion()
+    assert [fault.where for fault in reader.faults] == [
         f"{places[name]}.{name}" for name in MOTION if name in missing and name in ("mass", "acceleration")
     ] + [f"need.{name}" for name in ("stroke", "feed") if name in missing]
     if not missing:
@@ -351,26 +351,27 @@ def test_a_mass_needs_all_of_its_motion(missing):
             "speed": "24 m/min",
         }
         assert "feed" not in tables["need"]
-        assert len(notes) == 2
+        assert len(reader.notes) == 2
     else:
         assert "kind" not in tables["motion"]
-        assert notes == []
+        assert reader.notes == []
 
 
 def test_what_is_said_beside_a_motion():
-    def tables(**more):
+    def read(**more):
         axis, motion = {"mass": "1 kg", "inclination": "0 deg"}, {"acceleration": "1 m/s^2", "dwell": "1 s"}
-        return {"axis": axis, "motion": motion, "need": {"feed": "1 m/s", "stroke": "1 m"}, **more}
+        tables = {"axis": axis, "motion": motion, "need": {"feed": "1 m/s", "stroke": "1 m"}, **more}
+        reader = NeedReader(tables)
+        reader.make_motion()
+        assert reader.notes == []
+        return reader
 
-    faults = []
-    assert with_motion(tables(), faults) == []
-    assert faults == []
-    with_motion(tables(operation={"axial_load": "1 N"}), faults)
-    assert [fault.where for fault in faults] == ["operation.axial_load"]
+    assert read().faults == []
+    assert [fault.where for fault in read(operation={"axial_load": "1 N"}).faults] == ["operation.axial_load"]
     # a motion that is written out is left alone
-    own = {"axis": {}, "motion": {"kind": "sine"}, "need": {}}
-    assert with_motion(own, faults) == []
-    assert own["motion"] == {"kind": "sine"}
+    reader = read(axis={}, motion={"kind": "sine"}, need={})
+    assert reader.faults == []
+    assert reader.tables["motion"] == {"kind": "sine"}
 
 
 def test_the_document_of_a_need_has_what_is_required_and_nothing_else():
