@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
-from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.fields import NUT_SPEED, is_nut_speed, is_share, without_percent
@@ -101,9 +101,7 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
     from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
     if case.origins.fit:
-        faults: list[Fault] = []
-        joint = _joint_of_fit(case.origins.fit, inputs_of(case.model, case.screw, case.lubricant), faults)
-        raise_if_any(faults)
+        joint = _joint_of_fit(case.origins.fit, inputs_of(case.model, case.screw, case.lubricant))
     elif case.origins.calibration is not None:
         parameters = case.origins.calibration.parameters
         mean = np.array([getattr(case.origins.calibration, field) for field in parameters])
@@ -121,8 +119,8 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
     return JointNormal(names, joint.mean[kept], joint.covariance[np.ix_(kept, kept)]) if kept else None
 
 
-def _joint_of_fit(table: Any, known: Mapping[str, Any], faults: list[Fault]) -> JointNormal | None:
-    """The correlated numbers of ``[calibration]``; errors in it are added to ``faults``."""
+def _joint_of_fit(table: Any, known: Mapping[str, Any]) -> JointNormal | None:
+    """The correlated numbers of ``[calibration]``. Raises :class:`~ballscrew.basis.errors.InputError`."""
     # loads xarray: only where inputs are sampled
     from ballscrew.engine.uncertainty.monte_carlo import JointNormal
 
@@ -135,13 +133,11 @@ def _joint_of_fit(table: Any, known: Mapping[str, Any], faults: list[Fault]) -> 
             raise ValueError
     except (TypeError, KeyError, ValueError):
         remedy = "leave the section as ballscrew fit wrote it, or leave it out"
-        faults.append(Fault("calibration", "is not as a fit writes it", "", remedy))
-        return None
+        raise InputError(Fault("calibration", "is not as a fit writes it", "", remedy)) from None
     unknown = [name for name in names if name not in known]
     if unknown:
         remedy = "fit again, or leave the section out"
-        faults.append(Fault("calibration.numbers", "the case has no such number", ", ".join(unknown), remedy))
-        return None
+        raise InputError(Fault("calibration.numbers", "the case has no such number", ", ".join(unknown), remedy))
     return JointNormal(names, values, covariance) if names else None
 
 

@@ -33,11 +33,15 @@ def read(cls: type[T], written: Mapping[str, Any], quantities_of: QuantitiesOf |
         given = written.get(name)
         if given is None or given == option.written_default:
             values[name] = option.default
-        elif option.kind == "ranges":
-            known = {} if quantities_of is None else quantities_of(name, values)
-            values[name] = _ranges(option.flag, assignments(given), known, faults)
-        else:
-            values[name] = _READERS.get(option.kind, _as_it_is)(option, given, faults)
+            continue
+        try:
+            if option.kind == "ranges":
+                known = {} if quantities_of is None else quantities_of(name, values)
+                values[name] = _ranges(option.flag, assignments(given), known)
+            else:
+                values[name] = _READERS.get(option.kind, _as_it_is)(option, given)
+        except InputError as error:
+            faults += error.faults
     raise_if_any(faults)
     return cls(**values)
 
@@ -73,31 +77,32 @@ def assignments(given: Mapping[str, str] | Sequence[str]) -> list[str]:
     return [f"{name}={text}" for name, text in given.items()] if isinstance(given, Mapping) else list(given)
 
 
-def _as_it_is(_option: OptionField, given: Any, _faults: list[Fault]) -> Any:
+def _as_it_is(_option: OptionField, given: Any) -> Any:
     return given
 
 
-def _choice(option: OptionField, given: str, faults: list[Fault]) -> str:
+def _choice(option: OptionField, given: str) -> str:
     if given not in option.choices:
         known = either((each for each in option.choices if each != option.default), quote="")
         problem = f"unknown {option.option.noun or option.name}"
-        faults.append(Fault(option.flag, problem, given, known))
+        raise InputError(Fault(option.flag, problem, given, known))
     return given
 
 
-def _names(option: OptionField, given: Sequence[str], faults: list[Fault]) -> Sequence[str]:
+def _names(option: OptionField, given: Sequence[str]) -> Sequence[str]:
     names = [name.strip() for text in given for name in text.split(",") if name.strip()]
     if not names and option.default:
         usual = ",".join(option.default)
         remedy = f"write {option.flag} {usual}"
-        faults.append(Fault(option.flag, "has no names", ", ".join(given), remedy))
+        raise InputError(Fault(option.flag, "has no names", ", ".join(given), remedy))
     return names
 
 
-def _texts(option: OptionField, given: Mapping[str, str] | Sequence[str], faults: list[Fault]) -> Any:
+def _texts(option: OptionField, given: Mapping[str, str] | Sequence[str]) -> Any:
     if option.option.is_table:
         return assignments(given)
     texts: dict[str, str] = {}
+    faults: list[Fault] = []
     for text in assignments(given):
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
@@ -105,42 +110,50 @@ def _texts(option: OptionField, given: Mapping[str, str] | Sequence[str], faults
             remedy = f"write {option.flag} {option.option.example}"
             faults.append(Fault(option.flag, f"is not name={noun}", text, remedy))
         texts[name.strip()] = value.strip()
+    raise_if_any(faults)
     return texts
 
 
-def _quantity(option: OptionField, text: str, faults: list[Fault]) -> float | None:
-    """A number in SI within its bounds; None where it is a fault."""
+def _quantity(option: OptionField, text: str) -> float:
+    """A number in SI within its bounds."""
     said, flag = option.option, option.flag
     if said.is_difference and units.unit_in(text) not in ("K", "kelvin", ""):
         number = text.replace(units.unit_in(text), "").strip()
         remedy = f'write {flag} "{number} K"'
-        faults.append(Fault(flag, "is a difference of temperatures, in K", text, remedy))
-        return None
+        raise InputError(Fault(flag, "is a difference of temperatures, in K", text, remedy))
     info = Info("", said.meaning, said.shown_in, above=said.above, at_least=said.at_least)
     quantity = Quantity(option.name, said.unit, info)
     value = units.parse(flag, text, quantity)
     if isinstance(value, Fault):
-        faults.append(value)
-        return None
+        raise InputError(value)
     fault = fault_of("", quantity, value)
     if fault is not None:
-        faults.append(dataclasses.replace(fault, where=flag, given=text, remedy=said.hint))
+        raise InputError(dataclasses.replace(fault, where=flag, given=text, remedy=said.hint))
     return value
 
 
-def _quantities(option: OptionField, given: Sequence[str], faults: list[Fault]) -> list[float]:
-    return [each for text in given if (each := _quantity(option, text, faults)) is not None]
+def _quantities(option: OptionField, given: Sequence[str]) -> list[float]:
+    values: list[float] = []
+    faults: list[Fault] = []
+    for text in given:
+        try:
+            values.append(_quantity(option, text))
+        except InputError as error:
+            faults += error.faults
+    raise_if_any(faults)
+    return values
 
 
-_READERS: Mapping[str, Callable[[OptionField, Any, list[Fault]], Any]] = {
+_READERS: Mapping[str, Callable[[OptionField, Any], Any]] = {
     "choice": _choice, "names": _names, "texts": _texts, "quantity": _quantity,
     "quantities": _quantities,
 }  # fmt: skip
 
 
-def _ranges(flag: str, given: Sequence[str], known: Mapping[str, Quantity], faults: list[Fault]) -> dict[str, Range]:
+def _ranges(flag: str, given: Sequence[str], known: Mapping[str, Quantity]) -> dict[str, Range]:
     """``name=low:high unit`` in SI."""
     ranges: dict[str, Range] = {}
+    faults: list[Fault] = []
     for text in given:
         name, equals, values = text.partition("=")
         name, (low, colon, high) = name.strip(), values.strip().partition(":")
@@ -158,6 +171,7 @@ def _ranges(flag: str, given: Sequence[str], known: Mapping[str, Quantity], faul
                 ranges[name] = cast("Range", tuple(ends))
                 if ranges[name][0] >= ranges[name][1]:
                     faults.append(Fault(f"{flag} {name}", "leaves no room", values, "put the lower end first"))
+    raise_if_any(faults)
     return ranges
 
 

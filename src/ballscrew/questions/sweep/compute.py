@@ -108,9 +108,8 @@ def plan(
 
     Raises :class:`~ballscrew.basis.errors.InputError` before anything is computed.
     """
-    faults: list[Fault] = []
     known = dict(inputs_of(case.model, case.screw, case.lubricant))
-    axes = _axes(case, vary, known, faults)
+    axes, faults = _axes(case, vary, known)
     heat: Mapping[str, Quantity] = _heat() if heats else {}
     asked = _Asked(
         case=case,
@@ -151,13 +150,17 @@ class _Asked:
 
 
 def _axes(
-    case: Case, vary: Sequence[str], known: Mapping[str, tuple[str, Quantity]], faults: list[Fault]
-) -> dict[str, np.ndarray]:
-    """The axes of the command line, or else of the case, or else the usual ones: load and speed from a tenth on."""
+    case: Case, vary: Sequence[str], known: Mapping[str, tuple[str, Quantity]]
+) -> tuple[dict[str, np.ndarray], list[Fault]]:
+    """The axes of the command line, or else of the case, or else the usual ones, and the faults of the others.
+
+    The usual ones are load and speed from a tenth on.
+    """
     if not vary and not case.sweep:
-        return {name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0) for name in OPERATION}
+        return {name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0) for name in OPERATION}, []
     axes: dict[str, np.ndarray] = {}
-    for written, text in _texts(vary, faults).items() if vary else case.sweep.items():
+    texts, faults = _texts(vary) if vary else (case.sweep, [])
+    for written, text in texts.items():
         section, name = _split(written)
         if name not in known or section not in ("", known[name][0]):
             faults.append(_unknown_field(written, section, name, known))
@@ -170,7 +173,7 @@ def _axes(
             faults.append(values)
         else:
             axes[name] = values
-    return axes
+    return axes, faults
 
 
 def _unknown_field(written: str, section: str, name: str, known: Iterable[str]) -> Fault:
@@ -260,9 +263,10 @@ def _split(written: str) -> tuple[str, str]:
     return (section, name) if dot and section in _SECTIONS else ("", written)
 
 
-def _texts(vary: Sequence[str], faults: list[Fault]) -> dict[str, str]:
-    """The ``field=values`` of the command line."""
+def _texts(vary: Sequence[str]) -> tuple[dict[str, str], list[Fault]]:
+    """The ``field=values`` of the command line, and the faults of those that are none."""
     texts: dict[str, str] = {}
+    faults: list[Fault] = []
     for axis in vary:
         name, equals, text = (part.strip() for part in axis.partition("="))
         if not equals:
@@ -271,7 +275,7 @@ def _texts(vary: Sequence[str], faults: list[Fault]) -> dict[str, str]:
             faults.append(Fault("--vary", "is given twice", name, "give each field once"))
         else:
             texts[name] = text
-    return texts
+    return texts, faults
 
 
 def is_store(to: Path | None) -> bool:
