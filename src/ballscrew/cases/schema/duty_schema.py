@@ -50,12 +50,12 @@ def read_counterweight(raw: object) -> float:
     return si_value(raw, known["counterweight"]) if isinstance(force, Fault) else Counterforce(force)
 
 
-def fields_of_motion(kind: str) -> set[str]:
+def fields_of_motion(kind: str) -> tuple[str, ...]:
     """The keys that a motion of a kind may have, besides its kind."""
     if kind == TRAJECTORY:
-        return {"file"}
+        return ("file",)
     cls = MOTIONS[kind]
-    return {*fields_of(cls), *(key for name, key in KEYS.items() if name in cls.__dataclass_fields__)}
+    return (*fields_of(cls), *(key for name, key in KEYS.items() if name in cls.__dataclass_fields__))
 
 
 @functools.cache
