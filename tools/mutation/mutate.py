@@ -35,7 +35,8 @@ WORK = ROOT / "out" / "mutation"
 NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py")
 #: A run of tests that takes so many times as long as they do, and so many seconds more, has noticed the change.
 LONGER, SECONDS_MORE = 4.0, 60.0
-PYTEST = ("-n0", "-q", "-p", "no:randomly")
+#: The tests of both tiers: what ``make test`` leaves to ``make test-slow`` answers for its lines, too.
+PYTEST = ("-n0", "-q", "-p", "no:randomly", "-m", "not long")
 
 
 class Room(NamedTuple):

@@ -206,9 +206,10 @@ class HandOver:
     def is_recordable(self) -> bool:
         """True where the model is one list of steps: not where each ball is solved by itself, on plain arrays."""
         try:
-            return bool(self.program.outputs) or True
+            _ = self.program
         except InputError:
             return False
+        return True
 
     def _by_program(self, given: Mapping[str, NDArray[Any]], shape: tuple[int, ...]) -> dict[str, NDArray[Any]]:
         program = self.program

@@ -170,6 +170,10 @@ def test_a_number_that_the_torque_does_not_depend_on_is_not_identified():
     assert found.estimates[FRICTION].identified
     assert found.estimates["lubricant.heat_capacity"].std is None
     assert any("hardly depend" in warning for warning in found.warnings)
+    # for bands, what is known is uncertain, and what is not known stays put
+    joint = found.joint
+    assert joint.names == tuple(found.response.names)
+    assert np.sqrt(np.diag(joint.covariance)) == pytest.approx([found.estimates[FRICTION].std, 0.0], rel=1e-9, abs=0)
 
 
 def test_a_prior_counts_and_says_how_much():

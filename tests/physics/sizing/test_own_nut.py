@@ -49,6 +49,13 @@ def is_in_band(found, name, value):
     return one.low <= value <= one.high
 
 
+def test_balls_are_made_of_all_sizes():
+    """From 1/32 in. on a size is a quarter larger than the next smaller one at most, in inches and in millimetres."""
+    sizes = np.unique(own_nut.BALLS)
+    assert sizes[0] == pytest.approx(0.0254 / 32, rel=1e-12)
+    assert np.max(sizes[1:] / sizes[:-1]) <= 1.25 + 1e-12
+
+
 # -- the balls of a table ----------------------------------------------------------------------------
 
 

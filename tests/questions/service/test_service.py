@@ -1,9 +1,11 @@
 """``ballscrew service``: two logs, one log, one torque; as words, JSON and picture; and what is refused."""
 
 import shutil
+from types import SimpleNamespace
 
 import pytest
 
+from ballscrew.questions.service.sheet import causes
 from support.commands import ROOT
 from support.processes import document_of
 
@@ -36,3 +38,22 @@ def test_a_faulty_log_is_named(ballscrew, tmp_path):
     done = ballscrew("service", WORN, bad, *QUICK)
     assert done.returncode == 2
     assert done.stderr.startswith("bad.csv: ")
+
+
+@pytest.mark.parametrize(
+    ("shares", "sentences"),
+    [
+        (
+            {"nut.preload": 0.3, "seals": 0.6, "lubricant.temperature": 0.05},
+            ["most of the interval is from: seals (60%), preload (30%)"],
+        ),
+        # a half is not most of it, and of many causes the three largest are named
+        (
+            {"a": 0.2, "b": 0.15, "c": 0.15, "d": 0.12},
+            ["no cause makes most of the interval; the largest: a (20%), c (15%), b (15%)"],
+        ),
+        ({"a": 0.09, "b": float("nan")}, []),
+    ],
+)
+def test_the_causes_of_an_interval_are_named_by_their_shares(shares, sentences):
+    assert causes(SimpleNamespace(change=None, preload=SimpleNamespace(shares=shares))) == sentences
