@@ -112,12 +112,18 @@ def leaves(value: Any, place: str = "") -> Iterator[tuple[str, str | float]]:
             if name not in NOT_COMPARED:
                 yield from leaves(part, f"{place}.{name}")
     elif isinstance(value, list) and value:
-        for index, part in enumerate(value):
-            yield from leaves(part, f"{place}.{index}")
+        for name, part in zip(_names(value), value, strict=True):
+            yield from leaves(part, f"{place}.{name}")
     elif isinstance(value, int | float) and not isinstance(value, bool):
         yield place, float(value)
     else:
         yield place, str(value)
+
+
+def _names(parts: list[Any]) -> list[Any]:
+    """What tells the parts of a list apart: their names, so that one more moves no other, or else their places."""
+    names = [part.get("name", part.get("id")) if isinstance(part, Mapping) else None for part in parts]
+    return names if None not in names and len(set(names)) == len(names) else [*range(len(parts))]
 
 
 def show(differences: Mapping[str, Difference]) -> None:
