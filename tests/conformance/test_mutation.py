@@ -46,6 +46,11 @@ def test_what_is_changed(changes, tmp_path, text, expected):
     assert {one.apply(text) for one in found(changes, tmp_path, text)} == expected
 
 
+def test_a_change_knows_the_line_on_which_its_statement_begins(changes, tmp_path):
+    text = "for a in b:\n    c += 1\n    d = f(\n        2,\n    )\n"
+    assert {(one.line, one.statement) for one in found(changes, tmp_path, text)} == {(2, 2), (4, 3)}
+
+
 def test_what_is_changed_in_a_script(changes, tmp_path):
     text = 'import * as a from "./a.js";\n// b && c\nexport function f(b) {\n  return b === 1 && "x && y" !== b;\n}\n'
     assert [one.key for one in found(changes, tmp_path, text, "part.js")] == [

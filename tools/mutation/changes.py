@@ -105,16 +105,16 @@ class _Finder:
     def _visit(self, node: ast.AST, inside: tuple[str, ...]) -> None:
         if _describes(node):
             return
-        before = self._statement
+        outer = self._statement
         if isinstance(node, ast.stmt):
             self._statement = node.lineno
         if isinstance(node, ast.expr):
             for start, end, after in self._of(node):
                 self._add(inside, start, end, after)
         if isinstance(node, ast.AugAssign) and type(node.op) in _OPERATORS:
-            before, after = (f"{sign}=" for sign in _OPERATORS[type(node.op)])
-            for start, end, _ in self._between(node.target, node.value, before, after):
-                self._add(inside, start, end, after)
+            sign, other = (f"{operator}=" for operator in _OPERATORS[type(node.op)])
+            for start, end, _ in self._between(node.target, node.value, sign, other):
+                self._add(inside, start, end, other)
         for name, value in ast.iter_fields(node):
             if name in ("annotation", "returns", "decorator_list", "type_params"):
                 continue
@@ -124,7 +124,7 @@ class _Finder:
         if isinstance(node, ast.If | ast.IfExp) and not isinstance(node.test, ast.Compare | ast.BoolOp | ast.UnaryOp):
             start, end = self._span(node.test)
             self._add(inside, start, end, f"not ({self.source[start:end]})")
-        self._statement = before
+        self._statement = outer
 
     def _add(self, inside: tuple[str, ...], start: int, end: int, after: str) -> None:
         line = self.source.count("\n", 0, start) + 1

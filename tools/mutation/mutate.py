@@ -256,7 +256,7 @@ def noticed(change: Change, tests: Sequence[str], copy: Path, seconds: float) ->
 def reached_in(room: str) -> Reached:
     """The tests of each line of a room: measured once for its sources and tests as they are, and what tests share."""
     paths = [ROOT / "tests" / test for test in ROOMS[room].tests]
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(repr(PYTEST).encode())
     tests = [*paths, ROOT / "tests" / "support", *sorted((ROOT / "tests").rglob("conftest.py"))]
     for file in (
         HERE / "contexts.py",
