@@ -105,3 +105,12 @@ def test_the_mean_of_a_power_of_the_speed():
 def test_bad_motions_are_named(build, named):
     with pytest.raises(InputError, match=named):
         build()
+
+
+def test_places_on_a_shaft_begin_where_they_are_told_or_lie_in_its_middle():
+    states = Trapezoid(stroke=0.3, speed=0.5, acceleration=5.0).states()
+    assert states.places_on(0.9) == pytest.approx(0.3 + states.position, rel=1e-12)
+    assert states.places_on(0.9, 0.1) == pytest.approx(0.1 + states.position, rel=1e-12)
+    for first in (0.0, 0.6, -0.1):
+        with pytest.raises(InputError, match="does not fit between the bearings"):
+            states.places_on(0.9, first)

@@ -91,6 +91,12 @@ def test_without_temperatures_the_bands_are_wider():
     assert states[1].temperature is None
 
 
+def test_one_speed_in_each_test_tells_no_causes_apart():
+    for tests, speed, is_said in ((series(PAPER, 1), SPEED, True), (logs(PAPER, 1, [1.0] * 6), None, False)):
+        found = condition(tests, screw_speed=speed)
+        assert ("condition.one_speed" in {record.id for record in found.warning_records}) == is_said
+
+
 def test_exact_torques_give_the_exact_preload():
     left = np.array([1, 1, 1, 1, 1, 0.9, 0.75, 0.5])
     warm = WARM + np.array([0, 3, -4, 2, 0, 8, -6, 15.0])

@@ -118,7 +118,8 @@ def test_the_vertical_example_of_thk(found):
 @pytest.mark.parametrize(
     ("settings", "name", "words"),
     [
-        (["motion.return=false"], "duty.open_cycle", "ends 300 mm from where it began"),
+        (["motion.return=false"], "duty.open_cycle", "ends 300 mm from where it began: the numbers are of "
+         "this way alone, not of a cycle that repeats; return = true adds the way back"),
         (['motion.stroke="20 mm"'], "duty.short_stroke", "20 mm is shorter than the loaded turns of the nut, 28.56 mm"),
         (['installation.unsupported_length="4 m"', "installation.ends=fixed-free"], "duty.critical_speed", "move at "),
         (['motor.rated_torque="1 N m"', 'motor.peak_torque="1.5 N m"', 'motor.largest_speed="3000 rpm"'],
