@@ -20,13 +20,12 @@ from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.schema.fields import example_of
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES
 from ballscrew.physics.components.materials import Lubricant, Material
-from ballscrew.physics.components.nut import Bodies, Scatter
+from ballscrew.physics.components.nut import NUTS, Bodies, Scatter
 from ballscrew.physics.components.oil_grades import DataSheet, grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.ratings import NUTS
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 

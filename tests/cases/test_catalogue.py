@@ -16,8 +16,8 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.screw_tables.catalogue import case_text, chosen
 from ballscrew.cases.screw_tables.nut_kinds import kind_in, kind_of
+from ballscrew.physics.components.nut import NUTS
 from ballscrew.physics.sizing.catalogue import SMALLEST_BALL, CatalogueRow, catalogue, printed_rows
-from ballscrew.physics.sizing.ratings import NUTS
 from support.commands import ROOT
 from support.processes import refused
 

@@ -17,9 +17,9 @@ from ballscrew.cases.case_files.descriptions import inputs, references
 from ballscrew.cases.schema.case_schema import NUT_TABLES, json_schema, validated
 from ballscrew.cases.screw_tables.nut_kinds import kind_of
 from ballscrew.engine.evaluation.outputs import inputs_of
-from ballscrew.physics.components.nut import Bodies, Deviations
+from ballscrew.physics.components.nut import NUTS, Bodies, Deviations
 from ballscrew.physics.laws.nut_losses import LipSeals, ReturnBraking, Seals, ShearedOil, SpinUp
-from ballscrew.physics.sizing.ratings import NUTS, ratings_of
+from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.run.compute import run
 from support.commands import ROOT
 

@@ -9,15 +9,14 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.schema.case_schema import coefficients_of, sections
 from ballscrew.cases.screw_tables.nut_kinds import LOSSES
 from ballscrew.engine.evaluation.outputs import known_outputs
-from ballscrew.faces.cli.main import COMMANDS, command_line, command_of
+from ballscrew.faces.cli.main import COMMANDS, command_line, typer_command
 from ballscrew.faces.web import openapi
 from ballscrew.faces.web.server import application
-from ballscrew.physics.components.nut import DoubleNut
+from ballscrew.physics.components.nut import NUTS, DoubleNut
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import LAWS
 from ballscrew.physics.friction.validity import STARVED
 from ballscrew.physics.sizing.checks import CHECKS
-from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.questions.select.need import SHORT_NAMES
 from ballscrew.questions.select.requirements import Requirements
 from support.rules import for_each
@@ -80,7 +79,7 @@ def exists(name, known):
     if name.startswith("ballscrew "):
         command, *flags = name.split()[1:]
         known_flags = (
-            {flag for one in command_of(command, COMMANDS[command]).params for flag in one.opts} if flags else ()
+            {flag for one in typer_command(command, COMMANDS[command]).params for flag in one.opts} if flags else ()
         )
         return command in command_line().commands and set(flags) <= {*known_flags}
     if name.startswith("bs."):

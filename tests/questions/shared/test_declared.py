@@ -12,7 +12,7 @@ from typing_extensions import TypeAliasType
 
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Torque, Unit
 from ballscrew.questions.shared import declared, schemas
-from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer, Column, part
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Column, Declared, part
 
 
 class Point(NamedTuple):
@@ -21,7 +21,7 @@ class Point(NamedTuple):
     place: Length
 
 
-class Path(Answer):
+class Path(Declared):
     """A path."""
 
     def __init__(self, ends=None, motor=None):
@@ -162,7 +162,7 @@ def test_a_name_of_an_array_is_an_array():
     number = TypeVar("number", bound=np.generic)
     numbers = TypeAliasType("numbers", np.ndarray[Any, np.dtype[number]], type_params=(number,))
 
-    class Of(Answer):
+    class Of(Declared):
         """Forces."""
 
         @part

@@ -36,7 +36,7 @@ def test_every_record_has_its_answer_and_its_models(question):
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=name)
 def test_every_record_is_a_command(question):
-    command = main.command_of(question.name, main.COMMANDS[question.name])
+    command = main.typer_command(question.name, main.COMMANDS[question.name])
     flags = {flag for parameter in command.params for flag in parameter.opts}
     options = {option.flag for cls in question.options for option in options_of(cls).values()}
     assert command.help == inspect.cleandoc(question.help)

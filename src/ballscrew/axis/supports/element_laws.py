@@ -29,6 +29,14 @@ BEARING_LAWS: Mapping[str, type] = {
     "known": KnownBearing,
 }
 GUIDE_LAWS: Mapping[str, type] = {"maker": LinearGuide, "contacts": ContactGuide}
+#: The laws of both as people read them.
+IN_WORDS: Mapping[str, str] = {
+    "contacts": "by its contacts",
+    "skf": "by the model of SKF2018",
+    "palmgren": "by Palmgren's moments, a recalled form",
+    "known": "of a known torque",
+    "maker": "by the law of makers",
+}
 #: What a bearing has besides the numbers of its law.
 MOUNTING: Mapping[str, Quantity] = fields_of(MountedBearing)
 #: Where the carriages are, and where the middle of the mass is on them.

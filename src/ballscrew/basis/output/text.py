@@ -16,8 +16,8 @@ def escaped(words: str) -> str:
     return html.escape(_FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", words))
 
 
-#: Columns of the widest line.
-WIDTH = 120
+#: Columns of the widest line, and of the narrowest last column.
+WIDTH, _NARROWEST = 120, 20
 
 
 def wrapped(line: str, indent: int = 4) -> str:
@@ -32,20 +32,20 @@ def cut(text: str, width: int, indent: int = 0) -> list[str]:
     ) or [""]
 
 
-def beside(prefix: str, words: str, narrowest: int = 20) -> str:
+def beside(prefix: str, words: str) -> str:
     """Words in a last column, which goes on below itself."""
-    lines = cut(words, max(narrowest, WIDTH - len(prefix)))
+    lines = cut(words, max(_NARROWEST, WIDTH - len(prefix)))
     return "\n".join([(prefix + lines[0]).rstrip(), *(" " * len(prefix) + line for line in lines[1:])])
 
 
-def aligned(lines: Sequence[Sequence[str]], of_text: Collection[int] = (0,), gap: int = 2) -> list[str]:
+def aligned(lines: Sequence[Sequence[str]], of_text: Collection[int] = (0,)) -> list[str]:
     """Cells in columns: those of text to the left, the others to the right."""
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
 
     def one(line: Sequence[str]) -> str:
         cells = enumerate(zip(line, widths, strict=True))
         placed = [cell.ljust(width) if place in of_text else cell.rjust(width) for place, (cell, width) in cells]
-        return (" " * gap).join(placed).rstrip()
+        return "  ".join(placed).rstrip()
 
     return [one(line) for line in lines]
 

@@ -16,14 +16,14 @@ from ballscrew.cases.schema.reader import Reader
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS
 from ballscrew.files.tables.cells import Share
-from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
+from ballscrew.physics.components.nut import NUTS, Bodies, Nut, Scatter, SingleNut
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.physics.laws.nut_losses import ParasiticLaw
 from ballscrew.physics.sizing import ratings
 from ballscrew.physics.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
 from ballscrew.physics.sizing.checks import groove_bottom
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.ratings import NUTS, Ratings, lists_preload, load_ratings, ratings_of
+from ballscrew.physics.sizing.ratings import Ratings, lists_preload, load_ratings, ratings_of
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)

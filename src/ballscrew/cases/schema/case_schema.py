@@ -1,8 +1,7 @@
 """The case file as pydantic models, made from the annotations of the parts.
 
 One section is one model: a field for every quantity of the part, text with a unit in, SI out. The
-JSON Schema of the whole (``ballscrew schema``) comes from the same models. The names of models and
-laws stand here and nowhere else.
+JSON Schema of the whole (``ballscrew schema``) comes from the same models.
 
 Laws from outside in a case: ``module:name``, imported from beside the case or from the current folder.
 
@@ -47,7 +46,7 @@ from ballscrew.cases.schema.fields import (
 )
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS
 from ballscrew.physics.components.materials import INPUTS_OF_SHEET, Lubricant, Material
-from ballscrew.physics.components.nut import Bodies, DoubleNut, Scatter
+from ballscrew.physics.components.nut import NUTS, Bodies, DoubleNut, Scatter
 from ballscrew.physics.components.oil_grades import SHEET_TEMPERATURE, DataSheet, grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
@@ -55,7 +54,6 @@ from ballscrew.physics.friction.calibrations import BY_MAKE, calibrations
 from ballscrew.physics.friction.model import LAWS, FrictionModel, coefficients, presets
 from ballscrew.physics.laws.protocols import name_of
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.ratings import NUTS
 
 #: A law of a module, as it is written.
 OUTSIDE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_][\w.]*")

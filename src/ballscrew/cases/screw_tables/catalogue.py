@@ -18,6 +18,7 @@ from ballscrew.files.tables import headings
 from ballscrew.files.tables.cells import Share
 from ballscrew.files.tables.headings import Column
 from ballscrew.files.tables.rows import Row, made, read
+from ballscrew.physics.components.nut import NUTS
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.laws.nut_losses import SEAL_MAKER, SEAL_SOURCE, Seals
 from ballscrew.physics.sizing.catalogue import (
@@ -29,7 +30,7 @@ from ballscrew.physics.sizing.catalogue import (
     is_shipped,
 )
 from ballscrew.physics.sizing.own_nut import RATED, Estimate, completed, with_table_balls
-from ballscrew.physics.sizing.ratings import NUTS, lists_preload, ratings_of
+from ballscrew.physics.sizing.ratings import lists_preload, ratings_of
 
 #: Quantities of a row that are listed, and that follow from it.
 FIELDS = fields_of(CatalogueRow)

@@ -6,12 +6,11 @@ import re
 from collections.abc import Mapping
 
 from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.nut import NUTS, Nut
 from ballscrew.physics.laws import nut_losses
 from ballscrew.physics.laws.nut_losses import ParasiticLaw
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Ends
-from ballscrew.physics.sizing.ratings import NUTS
 
 #: What catalogues call them in words, besides "nut" and "flange". A single nut that is preloaded may be two of the
 #: kinds: nothing is guessed.

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
-from ballscrew.faces.cli.options import CaseFile, KeepGoing, Output, Row, Rows, SelfHeating, Verbose, file_option
+from ballscrew.faces.cli.options import CaseArgument, KeepGoing, Output, Row, Rows, SelfHeating, Verbose, file_option
 from ballscrew.faces.cli.progress import log_on_stderr, print_engine, print_notes_of_rows, progress
 from ballscrew.questions.band import BandOptions
 from ballscrew.questions.check import CheckOptions, given
@@ -55,7 +55,7 @@ def _print_rows(answer: Answer, output: Output, to: Path | None) -> None:
 
 
 def run(
-    case: CaseFile,
+    case: CaseArgument,
     case_options: CaseOptions,
     output: Output,
     band: Annotated[
@@ -278,7 +278,7 @@ def _screws(name: str | None, rows: Path | None, row: str | None, *, every: bool
 
 
 def sweep(
-    case: CaseFile,
+    case: CaseArgument,
     *,
     options: SweepOptions,
     to: Annotated[

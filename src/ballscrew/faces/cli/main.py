@@ -110,10 +110,10 @@ class _Commands(TyperGroup):
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         name, command, others = super().resolve_command(ctx, args)
         function = COMMANDS.get(name or "")
-        return name, command if name is None or function is None else command_of(name, function), others
+        return name, command if name is None or function is None else typer_command(name, function), others
 
 
-def command_of(name: str, function: Callable[..., None]) -> Any:
+def typer_command(name: str, function: Callable[..., None]) -> Any:
     """A command with its parameters."""
     alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     alone.command(name, cls=_Command)(with_flags(function))

@@ -25,7 +25,7 @@ _TABLES = ("names", "quantities", "texts", "ranges")
 _LAST = ("allow_code", "verbose")
 _JSON = Option("One JSON object, SI units.", flag="json")
 
-CaseFile = Annotated[Path, typer.Argument(help=CASE.meaning)]
+CaseArgument = Annotated[Path, typer.Argument(help=CASE.meaning)]
 AsJson = Annotated[bool, typer.Option("--json", help=_JSON.meaning)]
 SelfHeating = Annotated[bool, typer.Option("--self-heating", help=SELF_HEATING.meaning)]
 Verbose = Annotated[bool, typer.Option("--verbose", help="Say on the error stream what evaluates the model, and why.")]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.faces.cli.options import AsJson, CaseFile, Output, file_option, print_answer
+from ballscrew.faces.cli.options import AsJson, CaseArgument, Output, file_option, print_answer
 from ballscrew.faces.cli.progress import progress
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.questions.compensation import CompensationOptions
@@ -30,7 +30,7 @@ _ANY = ("0.0.0.0", "::")
 
 
 def report(
-    case: CaseFile,
+    case: CaseArgument,
     to: Annotated[Path, file_option("File to write: .pdf or .html.")],
     case_options: CaseOptions,
     options: ReportOptions,
@@ -70,7 +70,7 @@ def report(
 
 
 def hand_over(
-    case: CaseFile,
+    case: CaseArgument,
     to: Annotated[
         str, typer.Option("--to", metavar="TARGET", help="Target: c, fmu, table, …; an unknown name lists all.")
     ],
@@ -93,7 +93,7 @@ def hand_over(
 
 
 def compensation(
-    case: CaseFile,
+    case: CaseArgument,
     to: Annotated[str, typer.Option("--to", metavar="CONTROL", help="sinumerik or isg (TwinCAT CNC).")],
     out: Annotated[Path, typer.Option("--out", "-o", metavar="FILE", help="File to write.")],
     options: CompensationOptions,

@@ -19,13 +19,13 @@ from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import NUTS
 from ballscrew.physics.components.oil_grades import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.questions.shared import charts
 
 _TORQUE = "friction torque on the screw (N m)"

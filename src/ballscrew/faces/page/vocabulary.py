@@ -23,7 +23,7 @@ from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.faces.page.starts import starts
 from ballscrew.physics.components.materials import Lubricant, Material
-from ballscrew.physics.components.nut import Bodies, Scatter
+from ballscrew.physics.components.nut import NUTS, Bodies, Scatter
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.balls import MECHANISMS
@@ -34,7 +34,6 @@ from ballscrew.physics.laws.contact import RaceState
 from ballscrew.physics.moving_balls.friction_states import Dahl, LuGre
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.condition import ConditionOptions
 from ballscrew.questions.duty.compute import NUMBERS

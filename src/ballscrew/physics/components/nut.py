@@ -405,3 +405,13 @@ class OffsetLeadNut(NutParts):
 
 
 Nut: TypeAlias = SingleNut | OversizeBallNut | DoubleNut | OffsetLeadNut
+
+#: The kinds of nut by their names.
+NUTS: Mapping[str, type[Nut]] = {
+    "single": SingleNut,
+    "oversize-balls": OversizeBallNut,
+    "double": DoubleNut,
+    "offset-lead": OffsetLeadNut,
+}
+#: Those that may have a preload.
+PRELOADED = tuple(name for name, kind in NUTS.items() if "preload" in fields_of(kind))

@@ -1,8 +1,6 @@
-"""The checks of a screw: its life, strength and speed against their limits.
+"""The checks of a screw: its life, strength and speed against their limits, as formulas of named values.
 
-The table of checks: life, strength and speed of a screw against their limits, as formulas of named values.
-
-The values, SI, by name; see :func:`ballscrew.physics.sizing.checks.checks`:
+The values, SI, by name, see :func:`checks`:
 
 - ``screw_speed`` of either sign, ``pitch_circle_diameter``, ``root_diameter``, ``young_modulus`` of the shaft;
 - magnitudes of loads, at one operating point those of :func:`loads_at_point`: ``half_load`` and ``other_half_load``,

@@ -5,13 +5,12 @@ The nut of a row of a catalogue: its kind, and the preload, the seals and the ou
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, NamedTuple, Protocol
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.errors import Fault, either, nearest, plain, shown
-from ballscrew.basis.quantities import Angle, Count, Force, Length, Ratio, fields_of
-from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.basis.quantities import Angle, Count, Force, Length, Ratio
+from ballscrew.physics.components.nut import NUTS, PRELOADED, Bodies, Nut, SingleNut
 from ballscrew.physics.components.screw import RATING_CONFORMITY, BallScrew, dynamic_load_rating
 from ballscrew.physics.equations import geometry, life
 from ballscrew.physics.laws.nut_losses import Seals
@@ -95,20 +94,11 @@ def load_ratings(screw: BallScrew) -> Ratings:
     return ratings_of(rated_geometry_of(screw))
 
 
-# ruff: noqa: D102  (members of a protocol are described where a row has them)
-
-
-#: The kinds of nut by their names.
-NUTS: Mapping[str, type[Nut]] = {
-    "single": SingleNut,
-    "oversize-balls": OversizeBallNut,
-    "double": DoubleNut,
-    "offset-lead": OffsetLeadNut,
-}
 #: A share below this is one that a spreadsheet shows in per cent, read as per cent again: vendors have 2 to 10 %.
 SMALLEST_SHARE = 0.002
-#: Those that may have a preload.
-PRELOADED = tuple(name for name, kind in NUTS.items() if "preload" in fields_of(kind))
+
+
+# ruff: noqa: D102  (members of a protocol are described where a row has them)
 
 
 class Listed(Rated, Protocol):

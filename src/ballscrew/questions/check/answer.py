@@ -17,12 +17,12 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.reader import OPTIONS, Reader, in_options
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_of
-from ballscrew.physics.components.nut import Nut, OversizeBallNut
+from ballscrew.physics.components.nut import PRELOADED, Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check, all_hold, checks, half_loads, judged, verdict_at_point
 from ballscrew.physics.sizing.makers_tables import speed_limit_of
-from ballscrew.physics.sizing.ratings import PRELOADED, Ratings, lists_preload, ratings_of
+from ballscrew.physics.sizing.ratings import Ratings, lists_preload, ratings_of
 from ballscrew.questions.check import flags
 from ballscrew.questions.run import answer as run
 from ballscrew.questions.run.answer import results

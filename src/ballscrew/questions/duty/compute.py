@@ -62,7 +62,7 @@ from ballscrew.questions.duty.parts import (
     WorstState,
     short_reversal,
 )
-from ballscrew.questions.shared.declared import LEFT_OUT, Answer, from_attributes, part, table_of
+from ballscrew.questions.shared.declared import LEFT_OUT, Declared, from_attributes, part, table_of
 
 DAY = 86400.0
 #: States of a cycle in a document; of more, each second, third … one: all of them are in a table in a file.
@@ -103,7 +103,7 @@ def cause_of(name: str) -> str:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class CycleNumbers(Answer):
+class CycleNumbers(Declared):
     """The numbers of a cycle, each declared and computed here, in the order in which they are shown.
 
     Torques, and the life by the larger mean load alone, are by the rule of catalogues where the case asks for it;

@@ -1,4 +1,4 @@
-"""The documents of a fit: its results, the columns of a log, and their models in the API; all in SI."""
+"""The documents of a fit: its results and the columns of a log, all in SI."""
 
 from __future__ import annotations
 

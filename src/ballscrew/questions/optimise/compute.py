@@ -19,12 +19,11 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
 from ballscrew.engine.evaluation.recordings import Engine
-from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.components.nut import PRELOADED, Bodies
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check
-from ballscrew.physics.sizing.ratings import PRELOADED
 from ballscrew.questions.check.answer import Checked, checked
 from ballscrew.questions.optimise.design_model import VARIABLES, DesignModel, DesignSpace, design_space
 from ballscrew.questions.select import candidates, requirements

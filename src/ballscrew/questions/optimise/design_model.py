@@ -24,6 +24,7 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.recordings import Engine
 from ballscrew.engine.uncertainty.monte_carlo import Sampler, sobol_sequence
 from ballscrew.physics.components.materials import STEEL_DENSITY
+from ballscrew.physics.components.nut import NUTS, PRELOADED
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.equations.shaft import shaft_inertia
@@ -37,7 +38,7 @@ from ballscrew.physics.sizing.checks import (
 )
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.makers_tables import GENERAL
-from ballscrew.physics.sizing.ratings import NUTS, PRELOADED, RatedGeometry, ratings_of
+from ballscrew.physics.sizing.ratings import RatedGeometry, ratings_of
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import (
     ALLOWED,

@@ -9,7 +9,7 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.schema.case_schema import json_schema as case_schema
 from ballscrew.cases.schema.case_schema import without_null
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.physics.sizing.ratings import NUTS
+from ballscrew.physics.components.nut import NUTS
 from ballscrew.questions.optimise.design_model import SEARCHED, VARIABLES, SearchOptions
 from ballscrew.questions.select.need import SHORT_NAMES, need_section
 from ballscrew.questions.select.requirements import OBJECTIVES, Requirements

@@ -27,7 +27,6 @@ from ballscrew.physics.friction.result import FrictionResult, Quadrant
 from ballscrew.physics.friction.verdicts import (
     PRELOAD_ABOVE_RATING,
     PRELOAD_LOST,
-    RULE_OF_MAKER,
     VERDICTS,
     preload_is_lost,
 )
@@ -136,7 +135,7 @@ def contradiction(result: Sequence[BesideRule]) -> str:
     )
 
 
-def judged(case: Case, nut: NutState | None) -> tuple[dict[str, Any], dict[str, str]]:
+def _of_own_rule(case: Case, nut: NutState | None) -> tuple[dict[str, Any], dict[str, str]]:
     """The values and the words of the verdict on the rule of the nut's own maker; none with spacer balls.
 
     The rules are of nuts full of balls.
@@ -147,12 +146,6 @@ def judged(case: Case, nut: NutState | None) -> tuple[dict[str, Any], dict[str, 
     rule, torque = own.by_rule.rule, own.by_rule.torque
     values = {"rule_of_maker": torque, "preload_drag_of_balls": nut.drag_of_balls}
     return values, {"rule": rule.label, "range": rule.range}
-
-
-def verdicts(case: Case, nut: NutState | None) -> list[Record]:
-    """What the rule of the nut's own maker gives, where the model is not near it."""
-    values, words = judged(case, nut)
-    return said([RULE_OF_MAKER], values | {"screw_speed": case.operation.screw_speed}, words)
 
 
 #: Results that verdicts are on, the operating point among them.
@@ -243,7 +236,7 @@ class Run:
         if nut is not None:
             values["preload"] = nut.preload
             values |= {name: getattr(nut.loads, name) for name in ("remaining_preload", "lift_off_load")}
-        of_maker, words = judged(self.case, nut)
+        of_maker, words = _of_own_rule(self.case, nut)
         return values | of_maker, words
 
     def _said(self, rows: Sequence[Judgement]) -> list[Record]:

@@ -18,6 +18,7 @@ from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.catalogue import assumed, case_text
+from ballscrew.physics.components.nut import NUTS, PRELOADED
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.across_groove import in_motion
@@ -26,7 +27,7 @@ from ballscrew.physics.friction.validity import BothTorques
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.installation import Installation
-from ballscrew.physics.sizing.ratings import NUTS, PRELOADED, lists_preload
+from ballscrew.physics.sizing.ratings import lists_preload
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.check.answer import Checked, checked, checks_by_loads
 from ballscrew.questions.duty import compute, verdicts

@@ -17,8 +17,8 @@ from ballscrew.basis.quantities import Duration, Info, Torque
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel
+from ballscrew.physics.components.nut import NUTS
 from ballscrew.physics.sizing.checks import failing, verdict_of
-from ballscrew.physics.sizing.ratings import NUTS
 from ballscrew.questions.duty import compute
 from ballscrew.questions.select.candidates import (
     LENGTH_OF_STROKE,

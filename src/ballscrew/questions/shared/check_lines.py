@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew.axis.supports.bearing import MountedBearing
-from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, name_of
+from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, IN_WORDS, name_of
 from ballscrew.basis import units
 from ballscrew.basis.errors import in_file
 from ballscrew.basis.output.sheet import Cell, Number, Share, Table
@@ -91,13 +91,6 @@ def source_document(check: Check) -> dict[str, Any]:
     return {"source": check.source, "source_text": QUALIFICATIONS[check.source]}
 
 
-_LAWS = {
-    "contacts": "by its contacts",
-    "skf": "by the model of SKF2018",
-    "palmgren": "by Palmgren's moments, a recalled form",
-    "known": "of a known torque",
-    "maker": "by the law of makers",
-}
 #: What is shown of an element, as far as it has it.
 _SHOWN = (
     "bore", "outside_diameter", "ball_diameter", "balls", "contact_angle", "rows", "contacts_per_ball",
@@ -128,7 +121,7 @@ def _words(element: Any, laws: Any) -> str:
         if name in known and getattr(element, name)
     ]
     assumed = getattr(element, "assumed", ())
-    return f"{_LAWS[law]}: {', '.join(sizes) or 'nothing'}" + (f"; assumed: {', '.join(assumed)}" if assumed else "")
+    return f"{IN_WORDS[law]}: {', '.join(sizes) or 'nothing'}" + (f"; assumed: {', '.join(assumed)}" if assumed else "")
 
 
 def _mounting(bearing: MountedBearing) -> str:

@@ -1,6 +1,6 @@
 """Answers that are declared once: their document, its units and its schema follow from their annotations.
 
-An answer is a class: a dataclass, a named tuple, or an :class:`Answer`, whose parts are properties. Each part is a
+An answer is a class: a dataclass, a named tuple, or a :class:`Declared`, whose parts are properties. Each part is a
 number with a unit (``Annotated[Torque, Info(...)]``), a truth value, a text, another answer, or a sequence or a mapping
 of these. A mapping that is annotated as a whole (``Annotated[Mapping[str, float], Unit("N")]``) has one unit in the
 document of units, one of annotated numbers (``Mapping[str, Force]``) a unit for each key.
@@ -148,7 +148,7 @@ def is_union(annotation: Any) -> bool:
 def parts_of(cls: type) -> Mapping[str, Part]:
     """The parts of an answer by name: fields, then public properties, those of a base class first."""
     parts: dict[str, Part] = {}
-    has_parts = issubclass(cls, Answer)
+    has_parts = issubclass(cls, Declared)
     kinds: Any = (part,) if has_parts else (property, functools.cached_property)
     fields = [] if has_parts or not dataclasses.is_dataclass(cls) else [each.name for each in dataclasses.fields(cls)]
     names = set(getattr(cls, "_fields", fields))  # those of a named tuple, or of a dataclass
@@ -177,14 +177,14 @@ def described(cls: type) -> Mapping[str, Part]:
 def is_answer(annotation: Any) -> bool:
     """True for a class that is an answer of its own."""
     return isinstance(annotation, type) and (
-        dataclasses.is_dataclass(annotation) or hasattr(annotation, "_fields") or issubclass(annotation, Answer)
+        dataclasses.is_dataclass(annotation) or hasattr(annotation, "_fields") or issubclass(annotation, Declared)
     )
 
 
 _is_answer: Callable[[type], bool] = functools.cache(is_answer)
 
 
-class Answer:
+class Declared:
     """An answer whose parts are properties :class:`part`, whatever else it has."""
 
 

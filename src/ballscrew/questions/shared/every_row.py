@@ -17,9 +17,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
-from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.components.nut import NUTS, Bodies
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.ratings import NUTS, lists_preload
+from ballscrew.physics.sizing.ratings import lists_preload
 from ballscrew.questions.shared.question import Done
 
 T = TypeVar("T")
