@@ -22,8 +22,8 @@ from ballscrew.engine.sweeps import cluster
 from ballscrew.engine.sweeps.store import Store
 from ballscrew.engine.sweeps.store_plan import Blocks
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from harness import asked, megabytes, told
-from out_of_core import OUTPUTS, axes
+from harness import asked, megabytes, seconds, told
+from out_of_core import OUTPUTS, axes, size_of
 
 #: Empty tasks under way.
 WINDOW = 512
@@ -91,10 +91,8 @@ def main() -> None:
         blocks(client, store, workers, range(2))  # compiled
         alone = blocks(client, store, workers[:1], range(count))
         both = blocks(client, store, workers, range(count, 2 * count))
-        start = time.perf_counter()
-        bs.sweep(model, SCREW, OIL, outputs=OUTPUTS, to=Path(name) / "map.zarr", cluster=client, **axes(points))
-        seconds = time.perf_counter() - start
-        kept = sum(path.stat().st_size for path in (Path(name) / "map.zarr").rglob("*") if path.is_file())
+        grid = axes(points) | {"to": Path(name) / "map.zarr"}
+        taken = seconds(lambda: bs.sweep(model, SCREW, OIL, outputs=OUTPUTS, cluster=client, **grid))
         figures = {
             "tasks_per_s": tasks,
             "task_overhead_ms": 1e3 / tasks,
@@ -104,10 +102,10 @@ def main() -> None:
             "write_s": statistics.median(block[1] for block in alone),
             "evaluate_both_s": statistics.median(block[0] for block in both),
             "write_both_s": statistics.median(block[1] for block in both),
-            "sweep_s": seconds,
-            "blocks_per_s": store.blocks.count / seconds,
-            "Mpoint_per_s": plan.total / seconds / 1e6,
-            "disk_MB_per_s": kept / seconds / 1e6,
+            "sweep_s": taken,
+            "blocks_per_s": store.blocks.count / taken,
+            "Mpoint_per_s": plan.total / taken / 1e6,
+            "disk_MB_per_s": size_of(grid["to"]) / taken / 1e6,
             "worker_idle_memory_MB": max(before),
             "worker_memory_MB": max(client.run(megabytes).values()),
             "engine": evaluation.engine,

@@ -14,8 +14,8 @@ import reference
 def write(folder: Path) -> None:
     """All tables of the page on accuracy, and one line of each for the page on agreement."""
     folder.mkdir(parents=True, exist_ok=True)
-    cases, tables = reference.compared()
-    whole = "\n".join(reference.as_markdown(table, cases) for table in tables)
+    tables = reference.compared()
+    whole = "\n".join(reference.as_markdown(table) for table in tables)
     (folder / "whole.md").write_text(whole, encoding="utf-8")
     rows: list[tuple[str, ...]] = []
     for table in tables:
