@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import functools
+from typing import Any
 
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.text_tables import markdown_table
 from effect_study import curves, law_figures
 from effect_study import effect_figures as figures
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, effects, sensitivities
 
 
-def write(folder: Path) -> None:
-    """Figures as SVG and PNG, tables as Markdown."""
-    folder.mkdir(parents=True, exist_ok=True)
-    cases = CASES
-    with charts.house_style():
-        for name, draw in {**figures.DRAWN, **law_figures.DRAWN}.items():
-            charts.save_as(draw(cases), folder / f"{name}.svg", "svg")
-    for case in cases.values():
-        (folder / f"steps_{case.name}.md").write_text(steps_table(case), encoding="utf-8")
-    for name, rows in (("sensitivities", None), ("largest", 3)):
-        (folder / f"{name}.md").write_text(sensitivity_table(rows), encoding="utf-8")
+def parts() -> dict[str, Any]:
+    """Figures, and tables as Markdown."""
+    drawn = {**figures.DRAWN, **law_figures.DRAWN}
+    return {
+        **{f"{name}.svg": functools.partial(draw, CASES) for name, draw in drawn.items()},
+        **{f"steps_{case.name}.md": steps_table(case) for case in CASES.values()},
+        "sensitivities.md": sensitivity_table(),
+        "largest.md": sensitivity_table(3),
+    }
 
 
 def steps_table(case) -> str:

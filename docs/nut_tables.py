@@ -2,8 +2,8 @@
 
 import sys
 from pathlib import Path
+from typing import Any
 
-from ballscrew.questions.shared import charts
 from effect_study import nut_figures
 
 sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
@@ -13,10 +13,7 @@ import four_point
 CASES = 150
 
 
-def write(folder: Path) -> None:
-    """Figures as SVG and PNG, the table as Markdown."""
-    folder.mkdir(parents=True, exist_ok=True)
-    with charts.house_style():
-        for name, draw in nut_figures.DRAWN.items():
-            charts.save_as(draw(), folder / f"{name}.svg", "svg")
-    (folder / "four_point.md").write_text(four_point.table(CASES), encoding="utf-8")
+def parts() -> dict[str, Any]:
+    """Figures, and the table as Markdown."""
+    drawn = {f"{name}.svg": draw for name, draw in nut_figures.DRAWN.items()}
+    return {**drawn, "four_point.md": four_point.table(CASES)}

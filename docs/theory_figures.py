@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,14 +22,6 @@ from effect_study.effect_figures import SPEED, case_caption, framed, mathtext, t
 
 REFERENCE = FrictionModel.reference()
 GIGA, MICRO, MILLI = 1e9, 1e-6, 1e-3
-
-
-def write(folder: Path) -> None:
-    """Write all figures as SVG and PNG."""
-    folder.mkdir(parents=True, exist_ok=True)
-    with charts.house_style():
-        for name, draw in {**FIGURES, **theory_screw_figures.FIGURES}.items():
-            charts.save_as(draw(), folder / f"{name}.svg", "svg")
 
 
 # -- geometry -------------------------------------------------------------------------------------
@@ -361,3 +353,8 @@ FIGURES = {
     "rolling_parts": rolling_parts,
     "mixed_friction": mixed_friction,
 }
+
+
+def parts() -> dict[str, Callable[[], Figure]]:
+    """All figures of these pages."""
+    return {f"{name}.svg": draw for name, draw in {**FIGURES, **theory_screw_figures.FIGURES}.items()}

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -129,17 +128,9 @@ def table_of_cooling() -> str:
 
 
 def tables() -> dict[str, str]:
-    """All tables by their names."""
-    return {"effects": table_of_effects(), "bands": table_of_bands(), "cooling": table_of_cooling()}
-
-
-def write(folder: Path) -> None:
-    """All tables as Markdown."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, table in tables().items():
-        (folder / f"{name}.md").write_text(table, encoding="utf-8")
+    """All tables by the names of their files."""
+    return {"effects.md": table_of_effects(), "bands.md": table_of_bands(), "cooling.md": table_of_cooling()}
 
 
 if __name__ == "__main__":
-    for name, table in tables().items():
-        print(f"{name}\n\n{table}")
+    print(*tables().values(), sep="\n")
