@@ -23,6 +23,7 @@ PARTS = {
     "starvation/cold.md": "starvation_tables:table",
     "calibration_example.txt": "calibration_example",
     "errata.md": "errata_page:rest",
+    "equation_table.md": "equation_table:table",
     "bearings/bearings.md": "bearing_comparison:table",
     "bearings/bearings.svg": "bearing_comparison:picture",
     "api": "api_tables:parts",
