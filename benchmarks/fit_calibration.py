@@ -40,7 +40,7 @@ from ballscrew.physics.laws.ball_chain import two_neighbours
 from ballscrew.physics.laws.friction import LoadSharing, RunInSharing
 from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute
-from calibration_trends import CLASSES, FITTED, changes_table, strata_table, trends_table
+from calibration_trends import CLASSES, FITTED, changes_table, points, strata_table, trends_table
 from harness import ROOT, asked
 from maker_calibrations import DECLARED_ROWS, line_of
 from maker_calibrations import FITS as MAKERS
@@ -52,16 +52,11 @@ DATA = ROOT / "src" / "ballscrew" / "data"
 
 def entries(model: FrictionModel, on_four_contacts: FrictionModel | None = None) -> list[Entry]:
     """The two sets with one model, or one for each; without the rows that are told apart."""
-    found: list[Entry] = []
     models = model, on_four_contacts or model
-    for data, model in zip(map(SETS.__getitem__, FITTED), models, strict=True):
-        rows = [
-            {name: value for name, value in row.items() if name != "no_load_torque_2pct_max"}
-            for row in compute.shipped_rows(data)
-        ]
-        points = [point for row in rows for point in data.evaluate(model, row, Conditions())]
-        found.append(Entry(data=data, model=model, calibration=None, points=points))
-    return found
+    return [
+        Entry(data=SETS[name], model=of_set, calibration=None, points=points(name, lambda _, of_set=of_set: of_set))
+        for name, of_set in zip(FITTED, models, strict=True)
+    ]
 
 
 class Nuts(NamedTuple):
@@ -99,11 +94,6 @@ def _together(screws: Sequence[BallScrew]) -> BallScrew:
     preload = np.array([screw.nut.preload for screw in screws])
     arrays = {name: np.array(values) for name, values in numbers.items() if any(one != values[0] for one in values)}
     return dataclasses.replace(screws[0], **arrays, nut=dataclasses.replace(nut, preload=preload))
-
-
-def points(sets: Sequence[Entry]) -> list[Point]:
-    """All rows of the two sets."""
-    return [point for entry in sets for point in entry.points]
 
 
 def in_half_bands(point: Point) -> float:
