@@ -2,14 +2,20 @@
 
 ``rexroth-2006-rubbing`` has one number, the force between balls in units of the load of a ball; ``rexroth-2006`` two,
 that and the boundary friction coefficient. Least squares of (model − middle) / half the band over all no-load torques
-of ``rexroth-double-nut`` (7 and 10 %) and ``rexroth-single-nut`` (5 %), all with the same weight. Those of other makers
-are of one number (:mod:`maker_calibrations`). Nothing else is fitted, and nothing by hand.
+of ``rexroth-double-nut`` (7 and 10 %) and ``rexroth-single-nut`` (5 %), all with the same weight.
+
+Those of other makers are of one number, the force between balls; the torque of a nut without load is linear in it, so
+least squares of model / stated − 1 have one step. ``hiwin`` is fitted on the rows of ``hiwin-stock`` that
+``data/validation/splits.toml`` declares, ``jis`` on the rule of JIS B 1192 for the sizes of ``rexroth-double-nut`` and
+its worked example: both are of nuts with two contacts a ball. Nothing else is fitted, and nothing by hand.
 
     python benchmarks/fit_calibration.py            print the fits
     python benchmarks/fit_calibration.py --write    and store them in src/ballscrew/data/calibrations.toml
     python benchmarks/fit_calibration.py --rivals   other numbers and another objective beside them, as Markdown
     python benchmarks/fit_calibration.py --left-out rows of one size class or of one kind of nut left out of the fit
                                                     and predicted, as Markdown; with --write into docs/left_out.inc
+    python benchmarks/fit_calibration.py --maker-calibrations
+                                                    the same of the other makers, into docs/maker_calibrations.inc
     python benchmarks/fit_calibration.py --strata   the ratios of each size class, as Markdown
     python benchmarks/fit_calibration.py --changes  the ratios of all makers with one assumption changed at a time, as
                                                     Markdown; with --write into docs/changes.inc
@@ -29,7 +35,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 import ballscrew
-from ballscrew.evidence.validation.entries import Conditions, Entry, Point
+from ballscrew.evidence.validation.entries import Conditions, Entry, Point, may_be_fitted
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
@@ -42,8 +48,6 @@ from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute
 from calibration_trends import CLASSES, FITTED, changes_table, points, strata_table, trends_table
 from harness import ROOT, asked
-from maker_calibrations import DECLARED_ROWS, line_of
-from maker_calibrations import FITS as MAKERS
 
 OBJECTIVE = "least squares of (model - middle) / half the band, every row with the same weight"
 START = (0.12, 0.0075)
@@ -223,6 +227,150 @@ def fit(rival: Rival, kept: Callable[[Entry, Point], bool] = lambda *_: True) ->
     return Fit(found.x, variance * np.linalg.pinv(found.jac.T @ found.jac), n, cost)
 
 
+# -- makers ------------------------------------------------------------------------------------------
+
+
+class Row(NamedTuple):
+    """A row of a fit: its name and what it is like, the value stated, and the torque as a line over the number."""
+
+    name: str
+    group: str
+    size: float
+    lead: float
+    stated: float
+    start: float
+    slope: float
+
+    def ratio(self, share: float) -> float:
+        """Model over stated."""
+        return (self.start + self.slope * share) / self.stated
+
+
+class Line(NamedTuple):
+    """The number of a fit, its variance, the rows, and the sum of squares that is left."""
+
+    share: float
+    variance: float
+    rows: Sequence[Row]
+    cost: float
+
+
+class MakerFit(NamedTuple):
+    """A calibration of one maker: whose it is, the files with its rows, the rows, and what they state."""
+
+    maker: str
+    sets: Sequence[str]
+    rows: Callable[[], Sequence[Row]]
+    stated: str = "of declared rows"
+    declared_rows: bool = False
+
+    @property
+    def objective(self) -> str:
+        """What was least."""
+        return f"least squares of model / stated - 1 {self.stated}, every row with the same weight"
+
+
+def _points_at(name: str, share: float) -> Mapping[str, Point]:
+    data, model = SETS[name], rubbing(share)
+    found = [point for row in compute.shipped_rows(data) for point in data.evaluate(model, row, data.conditions)]
+    return {point.name: point for point in found}
+
+
+def _rows(name: str, stated: Callable[[Point], float], kept: Callable[[Point], bool]) -> list[Row]:
+    none, some = _points_at(name, 0.0), _points_at(name, START[1])
+    return [
+        Row(
+            point.name,
+            point.group,
+            point.descriptors["size"],
+            point.descriptors["lead"],
+            stated(point),
+            point.value,
+            (some[point.name].value - point.value) / START[1],
+        )
+        for point in none.values()
+        if kept(point)
+    ]
+
+
+def hiwin_rows(declared: bool = True) -> list[Row]:
+    """Double and offset nuts of HIWIN's stock list: those that are fitted, or those kept aside."""
+    return _rows(
+        "hiwin-stock",
+        lambda point: point.band.middle,
+        lambda point: point.group in ("double", "offset") and may_be_fitted("hiwin-stock", point) == declared,
+    )
+
+
+def jis_rows() -> list[Row]:
+    """The rule of JIS B 1192 for the sizes and preloads of Rexroth's double nuts, and its worked example."""
+
+    def by_rule(point: Point) -> float:
+        return point.laws["jis"] * point.band.middle
+
+    return [
+        *_rows("rexroth-double-nut", by_rule, lambda _: True),
+        *_rows("thk-jis", lambda point: point.band.middle, lambda _: True),
+    ]
+
+
+MAKERS: Mapping[str, MakerFit] = {
+    "hiwin": MakerFit("HIWIN", ("hiwin-stock",), hiwin_rows, declared_rows=True),
+    # of Rexroth's nuts the sizes and preloads alone
+    "jis": MakerFit("THK", ("rexroth-double-nut", "thk-jis"), jis_rows, "of the rule of JIS B 1192"),
+}
+
+
+def line_of(rows: Sequence[Row]) -> Line:
+    """The least-squares fit of rows; the variance is that of one number."""
+    x = np.array([row.slope / row.stated for row in rows])
+    y = np.array([1 - row.start / row.stated for row in rows])
+    share = float(x @ y / (x @ x))
+    left = x * share - y
+    cost = float(left @ left)
+    return Line(share, cost / max(len(rows) - 1, 1) / float(x @ x), rows, cost)
+
+
+def _left_out_of_maker(name: str, rows: Sequence[Row]) -> list[list[str]]:
+    """Rows left out of a fit and predicted by it: kind by kind, half of the sizes, half of the leads."""
+    size, lead = (float(np.median([getattr(row, key) for row in rows])) for key in ("size", "lead"))
+    groups: dict[str, Callable[[Row], bool]] = {
+        f"diameters above {1000 * size:g} mm": lambda row: row.size > size,
+        f"diameters up to {1000 * size:g} mm": lambda row: row.size <= size,
+        f"leads above {1000 * lead:g} mm": lambda row: row.lead > lead,
+        f"leads up to {1000 * lead:g} mm": lambda row: row.lead <= lead,
+        **{f"{kind} nuts": lambda row, kind=kind: row.group == kind for kind in dict.fromkeys(r.group for r in rows)},
+    }
+    lines: list[list[str]] = []
+    for words, group in groups.items():
+        kept, out = [row for row in rows if not group(row)], [row for row in rows if group(row)]
+        if len(kept) > 1 and out:
+            lines.append([name, words, f"{line_of(kept).share:.3g}", *_predicted(out, line_of(kept).share)])
+    return lines
+
+
+def _predicted(rows: Sequence[Row], share: float) -> list[str]:
+    ratios = [row.ratio(share) for row in rows]
+    scatter = f" ± {np.std(ratios, ddof=1):.2f}" if len(ratios) > 1 else ""
+    return [str(len(rows)), f"{np.mean(ratios):.2f}{scatter}"]
+
+
+def makers_table() -> str:
+    """What each calibration predicts of rows that were left out of the fit, as Markdown."""
+    heading = ["calibration", "left out", "F_B/Q of the fit", "rows", "predicted / stated"]
+    lines: list[list[str]] = []
+    for name, fit in MAKERS.items():
+        rows = fit.rows()
+        lines += _left_out_of_maker(name, rows)
+        if fit.declared_rows:
+            share = line_of(rows).share
+            lines.append([name, "the rows kept aside", f"{share:.3g}", *_predicted(hiwin_rows(declared=False), share)])
+    return markdown_table(heading, lines)
+
+
+# -- what is stored, and tables -----------------------------------------------------------------------
+
+
 class Stored(NamedTuple):
     """A fit with all that is stored of it."""
 
@@ -244,7 +392,7 @@ def stored(found: Mapping[str, Fit]) -> dict[str, Stored]:
         line = line_of(of_maker.rows())
         fit = Fit(np.array([line.share]), np.array([[line.variance]]), len(line.rows), line.cost)
         every[name] = Stored(
-            of_maker.maker, (2,), BOTH[1:], fit, of_maker.objective, of_maker.sets, name in DECLARED_ROWS
+            of_maker.maker, (2,), BOTH[1:], fit, of_maker.objective, of_maker.sets, of_maker.declared_rows
         )
     return every
 
@@ -346,15 +494,16 @@ def rivals_table() -> str:
     return markdown_table(heading, lines)
 
 
-#: Tables by the flag that prints them; the last two are stored in ``docs`` with ``--write``.
+#: Tables by the flag that prints them; the last three are stored in ``docs`` with ``--write``.
 TABLES: dict[str, Callable[[], str]] = {
     "rivals": rivals_table,
     "strata": strata_table,
     "trends": trends_table,
     "left_out": left_out_table,
     "changes": changes_table,
+    "maker_calibrations": makers_table,
 }
-STORED = "left_out", "changes"
+STORED = "left_out", "changes", "maker_calibrations"
 
 
 def main() -> None:
