@@ -8,16 +8,15 @@ from typing import Any
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.shared.text_tables import markdown_table
-from effect_study import curves, law_figures
+from effect_study import curves
 from effect_study import effect_figures as figures
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, effects, sensitivities
 
 
 def parts() -> dict[str, Any]:
     """Figures, and tables as Markdown."""
-    drawn = {**figures.DRAWN, **law_figures.DRAWN}
     return {
-        **{f"{name}.svg": functools.partial(draw, CASES) for name, draw in drawn.items()},
+        **{f"{name}.svg": functools.partial(draw, CASES) for name, draw in figures.DRAWN.items()},
         **{f"steps_{case.name}.md": steps_table(case) for case in CASES.values()},
         "sensitivities.md": sensitivity_table(),
         "largest.md": sensitivity_table(3),
@@ -67,7 +66,7 @@ def numbers() -> dict[str, str]:
         r, c = case.result(reference), case.result(corrected)
         found[f"{name}_torque"] = f"{float(r.screw_torque):.3f}"
         found[f"{name}_corrected"] = f"{float(c.screw_torque):.3f}"
-        found[f"{name}_spin_parameter"] = f"{law_figures.half_spin_parameter(case):.2f}"
+        found[f"{name}_spin_parameter"] = f"{figures.half_spin_parameter(case):.2f}"
         found[f"{name}_spin_screw"] = f"{float(r.screw.spin_parameter):.2f}"
         found[f"{name}_spin_nut"] = f"{float(r.nut.spin_parameter):.2f}"
         before = steps[name][4].parts["curvature"]
