@@ -1,7 +1,7 @@
 """What a sweep costs on a cluster: tasks a scheduler sustains, and the seconds and the memory of a block.
 
 ``python benchmarks/cluster.py`` starts a scheduler and two workers on this machine, sends empty tasks
-through the loop that sweeps go through, then fills a store. Seconds of a block are those of a worker
+through the loop that sweeps go through, then writes blocks of a store. Seconds of a block are those of a worker
 alone and of two that share the disk.
 """
 
@@ -22,8 +22,8 @@ from ballscrew.engine.sweeps import cluster
 from ballscrew.engine.sweeps.store import Store
 from ballscrew.engine.sweeps.store_plan import Blocks
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from harness import asked, megabytes, seconds, told
-from out_of_core import OUTPUTS, axes, size_of
+from harness import asked, megabytes, told
+from out_of_core import OUTPUTS, axes
 
 #: Empty tasks under way.
 WINDOW = 512
@@ -72,9 +72,7 @@ def blocks(client: Any, store: Store, workers: list[str], numbers: range) -> lis
 def main() -> None:
     """Measure, and print."""
     options = asked(__doc__, points=2e7, tasks=20_000, folder=Path)
-    points = int(options.points)
-    model = bs.FrictionModel.olaru2005()
-    plan = Plan.of(Configuration(model, SCREW, OIL), OUTPUTS, axes(points))
+    plan = Plan.of(Configuration(bs.FrictionModel.olaru2005(), SCREW, OIL), OUTPUTS, axes(int(options.points)))
     given = {"processes": True, "n_workers": 2, "threads_per_worker": 1, "dashboard_address": ":0"}
     with (
         tempfile.TemporaryDirectory(prefix="ballscrew-", dir=options.folder) as name,
@@ -91,8 +89,6 @@ def main() -> None:
         blocks(client, store, workers, range(2))  # compiled
         alone = blocks(client, store, workers[:1], range(count))
         both = blocks(client, store, workers, range(count, 2 * count))
-        grid = axes(points) | {"to": Path(name) / "map.zarr"}
-        taken = seconds(lambda: bs.sweep(model, SCREW, OIL, outputs=OUTPUTS, cluster=client, **grid))
         figures = {
             "tasks_per_s": tasks,
             "task_overhead_ms": 1e3 / tasks,
@@ -102,10 +98,6 @@ def main() -> None:
             "write_s": statistics.median(block[1] for block in alone),
             "evaluate_both_s": statistics.median(block[0] for block in both),
             "write_both_s": statistics.median(block[1] for block in both),
-            "sweep_s": taken,
-            "blocks_per_s": store.blocks.count / taken,
-            "Mpoint_per_s": plan.total / taken / 1e6,
-            "disk_MB_per_s": size_of(grid["to"]) / taken / 1e6,
             "worker_idle_memory_MB": max(before),
             "worker_memory_MB": max(client.run(megabytes).values()),
             "engine": evaluation.engine,

@@ -72,8 +72,8 @@ def speed(repeats: int = 5) -> float:
     return 50_000 / float(np.median([seconds(lambda: four_point_slip(ball)) for _ in range(repeats)]))
 
 
-def table(number: int, seed: int = 2005) -> str:
-    """The table for the documentation."""
+def table(number: int = 150, seed: int = 2005) -> str:
+    """The table for the documentation: of a quarter of the screws, which tell the same in a quarter of 40 s."""
     cases = box(number, seed)
     heavier = flank_pair(cases, contact_load(cases))
     elastic = np.maximum(heavier.screw.maximum_pressure, heavier.nut.maximum_pressure) <= LARGEST_PRESSURE

@@ -95,9 +95,7 @@ def told(figures: Mapping[str, Any], as_json: bool, limits: Limits | None = None
 
 def study(words: str, table: Callable[[], str], page: str) -> None:
     """Print the table of a study, Markdown; ``--write`` also stores it in ``docs``."""
-    parser = argparse.ArgumentParser(description=words, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true", help=f"store it in docs/{page}")
-    options, text = parser.parse_args(), table()
+    options, text = asked(words, write=False), table()
     print(text, end="")
     if options.write:
         (ROOT / "docs" / page).write_text(text, encoding="utf-8")

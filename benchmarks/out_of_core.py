@@ -33,16 +33,12 @@ def axes(points: int) -> dict[str, Any]:
     }
 
 
-def size_of(store: Path) -> int:
-    """Bytes of all files of a store."""
-    return sum(path.stat().st_size for path in store.rglob("*") if path.is_file())
-
-
 def measured(store: Path, points: int) -> dict[str, float]:
     """The figures of a store that is filled."""
     grid, model = axes(points), bs.FrictionModel.olaru2005()
     taken = seconds(lambda: bs.sweep(model, SCREW, OIL, outputs=OUTPUTS, to=store, **grid))
-    total, size = math.prod(map(len, grid.values())), size_of(store)
+    total = math.prod(map(len, grid.values()))
+    size = sum(path.stat().st_size for path in store.rglob("*") if path.is_file())
     numbers = 8 * total * len(OUTPUTS)
     return {
         "points": total,

@@ -246,6 +246,17 @@ def as_markdown(table: Table) -> str:
     return f"{title}\n\n{markdown_table(('slip law', 'cases', *ERRORS), rows)}"
 
 
+def parts() -> dict[str, str]:
+    """All tables of the page on accuracy, and one line of each for the page on agreement."""
+    rows: list[tuple[str, ...]] = []
+    for table in compared():
+        row = next(row for row in table.rows() if row["model"] == "reference")
+        errors = f"{100 * row['median']:.1g} %", f"{100 * row['p95']:.1f} %", f"{100 * row['largest']:.1f} %"
+        rows.append((table.title[0].lower() + table.title[1:], str(row["n"]), *errors))
+    heading = ("reference model against the integral", "screws", "median", "95 % within", "largest")
+    return {"whole.md": "\n".join(map(as_markdown, compared())), "short.md": markdown_table(heading, rows)}
+
+
 def main() -> None:
     """Print what was asked for; ``--strips`` and ``--aligned`` are those of a contact."""
     options = asked(__doc__, cases=600, seed=2005, no_speed=False, strips=slip.NUMBER_OF_STRIPS, aligned=slip.ALIGNED)
@@ -256,7 +267,7 @@ def main() -> None:
         listed = [{"title": t.title, "rows": t.rows(), "notes": t.notes} for t in tables]
         print(json.dumps({"tables": listed, "speed": rates}, indent=2))
         return
-    print("\n".join(as_markdown(table) for table in tables))
+    print("\n".join(map(as_markdown, tables)))
     if rates:
         told({"points a second": rates}, False)
 

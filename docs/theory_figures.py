@@ -20,7 +20,6 @@ from ballscrew.physics.equations import (
     kinematics,
     life,
     nut_losses,
-    rheology,
     rolling,
     slip,
     transmission,
@@ -312,8 +311,7 @@ def rolling_parts() -> Figure:
     load = np.geomspace(10, 8000, 121)
     contact = PAPER.result(REFERENCE, axial_load=load).screw
     Q, E, R_x, k = contact.contact_load, contact.equivalent_modulus, contact.rolling_radius, contact.radii_ratio
-    W = rheology.load_parameter(Q, E, R_x)
-    U = rheology.speed_parameter(PAPER.oil.viscosity, PAPER.result(REFERENCE).entrainment_speed, E, R_x)
+    W, U = contact.load_parameter, contact.speed_parameter
     rigid, elastic = rolling.rigid_rolling_force(E, R_x, k, W, U), rolling.elastic_rolling_force(E, R_x, k, W, U)
     blend = rolling.blended_rolling_force(rigid, elastic, rolling.rigid_regime_share(k, W, U))
     oil.loglog(Q, rigid, color=charts.ORANGE, ls="--", label="rigid, constant viscosity")

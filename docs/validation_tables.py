@@ -17,7 +17,7 @@ from ballscrew.faces.sheets import pictures, terminal
 from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.physics.friction.calibrations import calibrated, calibration, calibrations
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.catalogue import printed_rows
 from ballscrew.physics.sizing.rules import RULES
 from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute, sheet
@@ -412,7 +412,7 @@ def _chain_share(kind, nut, percents) -> float:
     """Mean share of the force between balls in the calibrated no-load torque of the vendor's rows."""
     model, at = calibrated(FrictionModel.reference(), calibration("rexroth-2006")), Conditions()
     shares = []
-    for row in catalogue().values():
+    for row in printed_rows():
         if row.nut != kind:
             continue
         for percent in percents:

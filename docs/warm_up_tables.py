@@ -1,6 +1,6 @@
 """What warms up and by how much: the coupled table with the real nut, its bands, and what a cooled nut does.
 
-``python docs/warm_up_tables.py`` prints all tables; it takes a minute. The screw is that of the shipped row
+All tables take a minute. The screw is that of the shipped row
 ``rexroth-40x10x6-6-double`` with a preload of 3.5 kN, ISO VG 100, to and fro over half a metre of a shaft of 1.2 m
 without a load, in air of 20 °C. Columns take effects in one after the other:
 
@@ -130,7 +130,3 @@ def table_of_cooling() -> str:
 def tables() -> dict[str, str]:
     """All tables by the names of their files."""
     return {"effects.md": table_of_effects(), "bands.md": table_of_bands(), "cooling.md": table_of_cooling()}
-
-
-if __name__ == "__main__":
-    print(*tables().values(), sep="\n")

@@ -26,7 +26,7 @@ def make(folder: str, name: str, maker: str) -> None:
         put(target, printed.getvalue())
         return
     make = getattr(importlib.import_module(module), function)
-    if inspect.signature(make).parameters:
+    if not target.suffix and inspect.signature(make).parameters:
         make(target)
     else:
         put(target, make if target.suffix == ".svg" else make())

@@ -12,8 +12,9 @@ from kept import ROOT, Kept, Record
 #: What makes each part. A name with a suffix is a file, else it is a folder.
 PARTS = {
     "validation": "validation_tables:parts",
-    "nuts": "nut_tables:parts",
-    "accuracy": "accuracy_table:parts",
+    "nuts": "effect_study.nut_figures:parts",
+    "four_point.md": "four_point:table",
+    "accuracy": "reference:parts",
     "claims.md": "ballscrew.questions.reproduce.reproduction:claims_table",
     "olaru2005": "ballscrew.questions.reproduce.reproduction:reproduce_olaru2005",
     "effects": "effect_tables:parts",
