@@ -46,11 +46,6 @@ def seconds(work: Callable[[], Any]) -> float:
     return time.perf_counter() - start
 
 
-def first_and_then(work: Callable[[], Any], times: int = 5) -> tuple[float, float]:
-    """Time of the first call, and the median of later ones."""
-    return seconds(work), statistics.median(seconds(work) for _ in range(times))
-
-
 def in_turn(
     work: Mapping[str, Callable[[], Any]], rounds: int, timed: Callable[[Callable[[], Any]], float] = seconds
 ) -> dict[str, list[float]]:
