@@ -480,9 +480,8 @@ def trends_table() -> str:
         cells: list[str] = []
         for name in FITTED:
             found = points(name, model)
-            ratios = [point.ratio for point in found]
             exponents = {trend.descriptor: trend.exponent for trend in trends(found)}
-            cells.append(f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}")
+            cells.append(_judged(found)[0])
             cells += [f"{exponents[each]:+.2f}".replace("-", "−") for each in ("size", "steepness")]
         lines.append([words, *cells])
     return markdown_table(lines[0], lines[1:])
@@ -583,14 +582,14 @@ def strata_table() -> str:
         found = [points(name, lambda _, model=model: model) for model in models.values()]
         for words, (low, high) in {**CLASSES, "all": (0.0, math.inf)}.items():
             strata = [[point for point in of_model if low <= point.descriptors["size"] < high] for of_model in found]
-            lines.append([f"{name}, {words}", str(len(strata[0])), *map(_judged, strata)])
+            lines.append([f"{name}, {words}", str(len(strata[0])), *map(", ".join, map(_judged, strata))])
     return markdown_table(lines[0], lines[1:])
 
 
-def _judged(found: Sequence[Point]) -> str:
-    ratios = [point.ratio for point in found]
-    share = np.mean([bool(point.in_band) for point in found])
-    return f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}, {share:.0%}".replace("%", " %")
+def _judged(found: Sequence[Point]) -> tuple[str, str]:
+    """Mean ratio with its scatter, and the share in the band."""
+    ratios, share = [point.ratio for point in found], np.mean([bool(point.in_band) for point in found])
+    return f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}", f"{share:.0%}".replace("%", " %")
 
 
 # -- what is stored, and tables -----------------------------------------------------------------------
@@ -670,12 +669,9 @@ def left_out_table() -> str:
             for entry in sets:
                 told = [point for point in entry.points if group(entry, point)]
                 if told:
-                    ratios = [point.ratio for point in told]
                     values = ", ".join(f"{n} = {_shown(v)}" for n, v in zip(rival.names, found.values, strict=True))
-                    share = np.mean([bool(point.in_band) for point in told])
-                    mean = f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}"
                     told_of = f"{words}, {entry.data.name}" if words in CLASSES else words
-                    lines.append([told_of, name, values, str(len(told)), mean, f"{share:.0%}".replace("%", " %")])
+                    lines.append([told_of, name, values, str(len(told)), *_judged(told)])
     return markdown_table(heading, lines)
 
 
