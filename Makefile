@@ -107,8 +107,7 @@ docs: $(READY)
 	$(BIN)/python -m pytest -q -n 0 -k built tests/docs/test_links.py
 
 readme: $(READY)
-	$(BIN)/python docs/make_readme.py
-	$(BIN)/python docs/make_equation_table.py
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/writer/write.py ../README start equations
 
 rooms: $(READY)
 	$(BIN)/python docs/make_rooms.py

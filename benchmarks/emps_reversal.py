@@ -25,6 +25,7 @@ import ballscrew as bs
 from ballscrew.evidence.moving_logs.reading import read_moving
 from ballscrew.questions.shared.text_tables import markdown_table
 from harness import asked, told
+from support.moving_logs import SCREW_OF
 
 LEAD = 2.5e-3
 CUTOFF = 150.0
@@ -34,17 +35,7 @@ FAR, STROKE = 5e-3, 0.02
 ENDS = 1e-6 * np.array([0, 5, 10, 20, 35, 50, 100, 300, 500, 800])
 #: What is tried of the confounders: a share of the mass, and seconds by which the force is late.
 OFF = {"mass +1 %": (0.01, 0.0), "mass -1 %": (-0.01, 0.0), "1 ms late": (0.0, 1e-3), "1 ms early": (0.0, -1e-3)}
-#: A guess, as in docs/howto/moving_log.md.
-SCREW = bs.BallScrew(
-    pitch_circle_diameter=12.6e-3,
-    lead=LEAD,
-    ball_diameter=1.588e-3,
-    contact_angle=math.pi / 4,
-    loaded_balls=70,
-    screw_conformity=0.53,
-    nut_conformity=0.53,
-    nut=bs.DoubleNut(preload=150.0),
-)
+#: Of the screw, a guess as in docs/howto/moving_log.md.
 OIL = bs.Lubricant.from_grade("ISO VG 100", 303.15)
 #: Speed of the computed curve, rad/s: 2 mm/s, which the axis has after some tens of µm.
 SPEED = 2 * math.pi * 2e-3 / LEAD
@@ -163,7 +154,7 @@ def table(motion: Motion, steady: Steady, mass_off: float = 0.0) -> list[dict[st
 def computed() -> tuple[np.ndarray, np.ndarray]:
     """Share of the swing that the model has back, over the travel, for the guessed screw."""
     found = bs.reversal(
-        bs.FrictionModel.reference(), SCREW, OIL, axial_load=0.0, screw_speed=SPEED, travel=float(ENDS[-1])
+        bs.FrictionModel.reference(), SCREW_OF, OIL, axial_load=0.0, screw_speed=SPEED, travel=float(ENDS[-1])
     )
     back = (found["screw_torque"] / found["steady_torque"] + 1) / 2
     return found["travel"].to_numpy(), back.to_numpy()

@@ -37,6 +37,7 @@ from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.derivatives import slopes_of
 from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.questions.shared.text_tables import markdown_table
@@ -144,25 +145,38 @@ def difference(found: Mapping[str, NDArray[Any]], expected: Mapping[str, NDArray
     return worst
 
 
-def points_case(names: tuple[str, ...], points: int) -> Case:
-    """Cases A and B."""
+def by_formulas(_: Configuration, values: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    """The outputs by the formulas of the script."""
+    return dict(zip(OUTPUTS, formulas_on_arrays(**in_letters(values)), strict=True))
+
+
+def by_model(subject: Configuration, values: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    """The outputs by the model itself."""
+    result = subject.at(values)
+    return {name: known_outputs()[name].read(result) for name in OUTPUTS}
+
+
+def points_case(model: bs.FrictionModel, names: tuple[str, ...], points: int, whole_arrays: Any, part: int = 1) -> Case:
+    """A model at random points, against whole arrays of all of them or of a part."""
     values = drawn(names, points)
-    subject = Configuration(bs.FrictionModel.olaru2005(), SCREW, OIL)
+    subject = Configuration(model, SCREW, OIL)
     plan = Plan.of(subject, OUTPUTS, {name: xr.DataArray(v, dims="point") for name, v in values.items()})
     evaluation, results = ready(plan)
-    letters = in_letters(values)
-    expected = dict(zip(OUTPUTS, formulas_on_arrays(**{k: v[:100_000] for k, v in letters.items()}), strict=True))
+    fewer = points // part
+    some = {name: v[:fewer] for name, v in values.items()}
     numpy = Evaluation.of(plan, "numpy")
-    played = numpy.empty(points)
+    played = numpy.empty(fewer)
     work: dict[str, Callable[[], Any]] = {
         "memory": moving(len(names), len(OUTPUTS), points),
-        "numpy": lambda: formulas_on_arrays(**letters),
-        "numpy_engine": lambda: numpy.fill(played, slice(0, points)),
+        "numpy": lambda: whole_arrays(subject, some),
+        "numpy_engine": lambda: numpy.fill(played, slice(0, fewer)),
         "engine": lambda: evaluation.fill(results, slice(0, points)),
     }
-    numpy.fill(played, slice(0, points))
-    both = ({n: v[:100_000] for n, v in found.items()} for found in (results, played))
-    return Case(points, points, work, max(difference(found, expected) for found in both))
+    numpy.fill(played, slice(0, fewer))
+    checked = min(fewer, 100_000)
+    expected = whole_arrays(subject, {name: v[:checked] for name, v in values.items()})
+    both = ({n: v[:checked] for n, v in found.items()} for found in (results, played))
+    return Case(points, fewer, work, max(difference(found, expected) for found in both))
 
 
 def grid_case(points: int) -> Case:
@@ -178,34 +192,9 @@ def grid_case(points: int) -> Case:
     work: dict[str, Callable[[], Any]] = {
         "memory": moving(0, len(OUTPUTS), total),
         "numpy": lambda: formulas_on_arrays(**grid),
-        "numpy_broadcast": lambda: formulas_on_arrays(**broad),
         "engine": lambda: evaluation.fill(results, slice(0, total)),
     }
     return Case(total, total, work, difference(results, expected))
-
-
-def reference_case(points: int) -> Case:
-    """The reference model against its own form on whole arrays."""
-    values = drawn(OPERATION, points)
-    subject = Configuration(bs.FrictionModel.reference(), SCREW, OIL)
-    plan = Plan.of(subject, OUTPUTS, {name: xr.DataArray(v, dims="point") for name, v in values.items()})
-    evaluation, results = ready(plan)
-    fewer = points // 5
-    some = {name: v[:fewer] for name, v in values.items()}
-
-    def whole_arrays() -> dict[str, NDArray[Any]]:
-        result = subject.at(some)
-        return {name: output.read(result) for name, output in plan.wanted.items()}
-
-    numpy = Evaluation.of(plan, "numpy")
-    played = numpy.empty(fewer)
-    work: dict[str, Callable[[], Any]] = {
-        "memory": moving(3, len(OUTPUTS), points),
-        "numpy": whole_arrays,
-        "numpy_engine": lambda: numpy.fill(played, slice(0, fewer)),
-        "engine": lambda: evaluation.fill(results, slice(0, points)),
-    }
-    return Case(points, fewer, work, difference({n: v[:fewer] for n, v in results.items()}, whole_arrays()))
 
 
 def gradient_case(points: int) -> Case:
@@ -238,10 +227,10 @@ def gradient_case(points: int) -> Case:
 
 
 CASES: dict[str, Callable[[int], Case]] = {
-    "A": lambda points: points_case(OPERATION, points),
-    "B": lambda points: points_case(tuple(RANGES), points),
+    "A": lambda points: points_case(bs.FrictionModel.olaru2005(), OPERATION, points, by_formulas),
+    "B": lambda points: points_case(bs.FrictionModel.olaru2005(), tuple(RANGES), points, by_formulas),
     "cartesian": grid_case,
-    "reference": reference_case,
+    "reference": lambda points: points_case(bs.FrictionModel.reference(), OPERATION, points, by_model, 5),
     "gradient": gradient_case,
 }
 

@@ -46,11 +46,6 @@ def seconds(work: Callable[[], Any]) -> float:
     return time.perf_counter() - start
 
 
-def first_and_then(work: Callable[[], Any], times: int = 5) -> tuple[float, float]:
-    """Time of the first call, and the median of later ones."""
-    return seconds(work), statistics.median(seconds(work) for _ in range(times))
-
-
 def in_turn(
     work: Mapping[str, Callable[[], Any]], rounds: int, timed: Callable[[Callable[[], Any]], float] = seconds
 ) -> dict[str, list[float]]:
@@ -95,9 +90,7 @@ def told(figures: Mapping[str, Any], as_json: bool, limits: Limits | None = None
 
 def study(words: str, table: Callable[[], str], page: str) -> None:
     """Print the table of a study, Markdown; ``--write`` also stores it in ``docs``."""
-    parser = argparse.ArgumentParser(description=words, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--write", action="store_true", help=f"store it in docs/{page}")
-    options, text = parser.parse_args(), table()
+    options, text = asked(words, write=False), table()
     print(text, end="")
     if options.write:
         (ROOT / "docs" / page).write_text(text, encoding="utf-8")

@@ -6,9 +6,8 @@ and olaru2005() beside it.
 
 - ``sweep``: a million points over load, speed and preload, compiled, against the model on NumPy arrays.
 - ``gradient``: the torque and its derivatives by eight inputs, against the torque alone, both compiled.
-- ``second call``: what a sweep of ten points takes when the same one was asked for before.
 - ``elastic``: ten thousand points of an elastic nut, all balls one by one, compiled, against the model on NumPy
-  arrays; and twelve hundred points of a map of loads and speeds, as a page has them.
+  arrays.
 - ``band``: 100,000 samples; ``fit``: 10,000 rows with the preload and a friction coefficient free.
 
 ``--only sweep`` measures one of them, ``--avx2`` compiles as for a processor without AVX-512.
@@ -27,7 +26,7 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.derivatives import slopes_of
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from harness import asked, first_and_then, in_turn, ratio, seconds, told
+from harness import asked, in_turn, ratio, seconds, told
 
 PRELOAD = 4326.0
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=PRELOAD))
@@ -99,19 +98,8 @@ def gradient(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
     return {"over_value": ratio(found, "slopes", "value")}
 
 
-def second_call(model: bs.FrictionModel) -> dict[str, float]:
-    """Seconds of the first call of a small sweep and of the second."""
-    points = {"axial_load": np.linspace(0.0, 9000.0, 10), "screw_speed": 50.0}
-
-    def work() -> Any:
-        return bs.sweep(model, SCREW, OIL, outputs=["screw_torque"], engine="compiled", **points)
-
-    first, second = first_and_then(work)
-    return {"first_s": first, "second_s": second}
-
-
 def elastic(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
-    """Rates of an elastic nut, compiled and by the model, their ratio, and milliseconds of a map."""
+    """Rates of an elastic nut, compiled and by the model, and their ratio."""
     nut = bs.DoubleNut(preload=PRELOAD, bodies=bs.Bodies())
     subject = Configuration(model, dataclasses.replace(SCREW, nut=nut, loaded_balls=BALLS_OF_A_HALF), OIL)
 
@@ -119,14 +107,8 @@ def elastic(model: bs.FrictionModel, rounds: int) -> dict[str, float]:
         load, speed = np.random.default_rng(2).uniform([[100.0], [1.0]], [[20e3], [100.0]], (2, number))
         return {"axial_load": xr.DataArray(load, dims="point"), "screw_speed": xr.DataArray(speed, dims="point")}
 
-    page = {"axial_load": np.linspace(100.0, 20e3, 40), "screw_speed": np.linspace(1.0, 100.0, 30)}
-    points = {"compiled": scattered(10_000), "model": scattered(OF_THE_ELASTIC_MODEL), "page": page}
-    evaluations = {
-        name: Evaluation.of(Plan.of(subject, OUTPUTS, at), "model" if name == "model" else "compiled")
-        for name, at in points.items()
-    }
-    found = per_point(evaluations, rounds)
-    return {**rates(found), "page_ms": 1e3 * evaluations["page"].plan.total * statistics.median(found["page"])}
+    points = {"compiled": scattered(10_000), "model": scattered(OF_THE_ELASTIC_MODEL)}
+    return rates(per_point({e: Evaluation.of(Plan.of(subject, OUTPUTS, at), e) for e, at in points.items()}, rounds))
 
 
 def band(model: bs.FrictionModel) -> dict[str, float]:
@@ -137,8 +119,7 @@ def band(model: bs.FrictionModel) -> dict[str, float]:
         at = {"axial_load": 3000.0, "screw_speed": 50.0}
         return bs.band(model, SCREW, OIL, distributions=uncertain, samples=100_000, **at)
 
-    first, second = first_and_then(work, 1)
-    return {"first_s": first, "second_s": second}
+    return {"first_s": seconds(work), "second_s": seconds(work)}
 
 
 def fit(model: bs.FrictionModel) -> dict[str, float]:
@@ -169,7 +150,6 @@ def without_avx512() -> None:
 CASES = {
     "sweep": sweep,
     "gradient": gradient,
-    "second call": lambda model, _: second_call(model),
     "elastic": elastic,
     "band": lambda model, _: band(model),
     "fit": lambda model, _: fit(model),

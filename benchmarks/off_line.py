@@ -17,6 +17,7 @@ from ballscrew.physics.friction.across_groove import preload_off_line
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
 from ballscrew.questions.shared.text_tables import markdown_table
 from harness import study
+from support.screws import screw
 
 REFERENCE = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("VG 100", temperature=313.15)
@@ -25,15 +26,7 @@ SPEED = 2 * math.pi * 100 / 60
 
 def _screw(d_m: float, lead: float, d_w: float) -> BallScrew:
     """A screw with the usual grooves, by its sizes in millimetres."""
-    return bs.BallScrew(
-        pitch_circle_diameter=d_m * 1e-3,
-        lead=lead * 1e-3,
-        ball_diameter=d_w * 1e-3,
-        contact_angle=math.radians(45),
-        loaded_balls=30,
-        screw_conformity=0.54,
-        nut_conformity=0.54,
-    )
+    return screw(pitch_circle_diameter=d_m * 1e-3, lead=lead * 1e-3, ball_diameter=d_w * 1e-3, loaded_balls=30)
 
 
 #: Screws, and the load of a ball, N, at about 5 % of the dynamic rating.

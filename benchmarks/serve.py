@@ -1,26 +1,18 @@
-"""How the server does under load: 50 users at once, then requests of all kinds for ``--seconds``, and its memory."""
+"""A server in a process of its own, and requests for it: what benchmarks, screenshots and the hostile run share."""
 
-import concurrent.futures
 import contextlib
 import itertools
 import re
 import signal
-import statistics
 import subprocess
 import sys
-import time
 import tomllib
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, Any
 
-import httpx
 import psutil
 
-from harness import asked, told
-
-USERS = 50
 CASE = {
     "screw": {"catalogue": "rexroth-40x10x6-6-double"},
     "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"},
@@ -71,24 +63,6 @@ def moved(i: int) -> dict[str, Any]:
     return {**MOVED, "installation": mounted, "axis": {**MOVED["axis"], "mass": f"{100 + i % 900} kg"}}
 
 
-def crowd(address: str, users: int = USERS, each: int = 10) -> tuple[list[float], Counter[int]]:
-    """So many users at once, each with some requests one after the other: seconds by request, and statuses."""
-    seconds: list[float] = []
-    statuses: Counter[int] = Counter()
-
-    def user(number: int) -> None:
-        with httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
-            for i in range(each):
-                before = time.perf_counter()
-                answer = client.post("/api/v1/run", json={"case": case_number(number * each + i)})
-                seconds.append(time.perf_counter() - before)
-                statuses[answer.status_code] += 1
-
-    with concurrent.futures.ThreadPoolExecutor(users) as pool:
-        list(pool.map(user, range(users)))
-    return seconds, statuses
-
-
 def requests(number: int) -> Iterator[tuple[str, Any, int]]:
     """Endless requests of all kinds, each with numbers of its own: address, body, and the status it should have."""
     for i in itertools.count(number, 1000):
@@ -109,63 +83,3 @@ def requests(number: int) -> Iterator[tuple[str, Any, int]]:
         yield "run", {"case": {**case, "screw": {"catalogue": f"no-such-{i}"}}}, 422
         yield "run", {"case": {**case, "screw": {**CASE["screw"], "lead": f"{i} m^{2 + i % 7}/s s"}}}, 422
         yield "sweep", {"case": case, "vary": {f"load{i}": "1:2:3 N"}}, 422
-
-
-def mixed(
-    process: subprocess.Popen[str], address: str, seconds: float, users: int = 4, every: float = 5.0
-) -> tuple[list[tuple[float, float]], Counter[tuple[str, int]], Counter[str]]:
-    """Mixed load for so long: (seconds, MB) every few seconds, and answers that are not what they should be."""
-    end = time.monotonic() + seconds
-    wrong: Counter[tuple[str, int]] = Counter()
-    counts: Counter[str] = Counter()
-
-    def user(number: int) -> None:
-        with httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
-            for path, body, status in requests(number):
-                if time.monotonic() > end:
-                    return
-                answer = client.post(f"/api/v1/{path}", json=body)
-                counts[path] += 1
-                if answer.status_code != status:
-                    wrong[path, answer.status_code] += 1
-
-    begun = time.monotonic()
-    memory: list[tuple[float, float]] = []
-    with concurrent.futures.ThreadPoolExecutor(users) as pool:
-        running = [pool.submit(user, number) for number in range(users)]
-        while time.monotonic() < end:
-            time.sleep(min(every, max(0.0, end - time.monotonic())))
-            memory.append((time.monotonic() - begun, memory_of(process)))
-        for one in running:
-            one.result()
-    return memory, wrong, counts
-
-
-def main() -> None:
-    """Run both, and print what they took."""
-    options = asked(__doc__, seconds=60.0)
-    with server() as (process, address):
-        seconds, statuses = crowd(address)
-        memory, wrong, counts = mixed(process, address, options.seconds)
-    shares = statistics.quantiles(seconds, n=20)
-    told(
-        {
-            f"{USERS} users at once": {
-                "requests": len(seconds),
-                "statuses": str(dict(statuses)),
-                "median_s": statistics.median(seconds),
-                "95_percent_s": shares[-1],
-            },
-            "mixed load": {
-                "requests": str(dict(counts)),
-                "not as they should be": len(wrong),
-                "first_MB": memory[0][1],
-                "last_MB": memory[-1][1],
-            },
-        },
-        options.json,
-    )
-
-
-if __name__ == "__main__":
-    main()

@@ -3,7 +3,6 @@
 import asyncio
 import json
 import textwrap
-from pathlib import Path
 
 import httpx
 
@@ -113,15 +112,12 @@ def limits_table() -> str:
     return markdown_table(("at most", ""), [(words, f"{n:,.0f}") for words, n in rows.items()], numbers=True)
 
 
-def write(folder: Path) -> None:
+def parts() -> dict[str, str]:
     """All parts that the page includes."""
-    folder.mkdir(parents=True, exist_ok=True)
-    pages = {
-        "addresses": addresses(),
-        "statuses": statuses(),
-        "limits": limits_table(),
-        "run": _example("import httpx\n\n" + CASE + RUN, _output_of(CASE + RUN)),
-        "wrong": _example(WRONG, _output_of(CASE, WRONG)),
+    return {
+        "addresses.md": addresses(),
+        "statuses.md": statuses(),
+        "limits.md": limits_table(),
+        "run.md": _example("import httpx\n\n" + CASE + RUN, _output_of(CASE + RUN)),
+        "wrong.md": _example(WRONG, _output_of(CASE, WRONG)),
     }
-    for name, text in pages.items():
-        (folder / f"{name}.md").write_text(text, encoding="utf-8")

@@ -11,7 +11,6 @@ import dataclasses
 import functools
 import itertools
 import math
-from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -128,10 +127,3 @@ def picture() -> Figure:
         panel.legend()
     np.ravel(panels)[0].set_ylabel("this model / bearing maker's")
     return figure
-
-
-def write(folder: Path) -> None:
-    """The table as Markdown, the picture as SVG."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "bearings.md").write_text(table(), encoding="utf-8")
-    charts.draw(picture, folder / "bearings.svg")

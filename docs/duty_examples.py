@@ -126,7 +126,3 @@ def table() -> str:
     worse, both = life.revolutions_of_the_worse, life.revolutions
     rows.append((name, "life", f"{turns:.2g} turns", f"{worse:.2g} turns", f"{both:.2g} turns, both flanks"))
     return markdown_table(("example", "quantity", "printed", "by its rule", "by mechanics"), rows)
-
-
-if __name__ == "__main__":
-    print(table())

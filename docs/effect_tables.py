@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import functools
+from typing import Any
 
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.text_tables import markdown_table
-from effect_study import curves, law_figures
+from effect_study import curves
 from effect_study import effect_figures as figures
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, effects, sensitivities
 
 
-def write(folder: Path) -> None:
-    """Figures as SVG and PNG, tables as Markdown."""
-    folder.mkdir(parents=True, exist_ok=True)
-    cases = CASES
-    with charts.house_style():
-        for name, draw in {**figures.DRAWN, **law_figures.DRAWN}.items():
-            charts.save_as(draw(cases), folder / f"{name}.svg", "svg")
-    for case in cases.values():
-        (folder / f"steps_{case.name}.md").write_text(steps_table(case), encoding="utf-8")
-    for name, rows in (("sensitivities", None), ("largest", 3)):
-        (folder / f"{name}.md").write_text(sensitivity_table(rows), encoding="utf-8")
+def parts() -> dict[str, Any]:
+    """Figures, and tables as Markdown."""
+    return {
+        **{f"{name}.svg": functools.partial(draw, CASES) for name, draw in figures.DRAWN.items()},
+        **{f"steps_{case.name}.md": steps_table(case) for case in CASES.values()},
+        "sensitivities.md": sensitivity_table(),
+        "largest.md": sensitivity_table(3),
+    }
 
 
 def steps_table(case) -> str:
@@ -69,7 +66,7 @@ def numbers() -> dict[str, str]:
         r, c = case.result(reference), case.result(corrected)
         found[f"{name}_torque"] = f"{float(r.screw_torque):.3f}"
         found[f"{name}_corrected"] = f"{float(c.screw_torque):.3f}"
-        found[f"{name}_spin_parameter"] = f"{law_figures.half_spin_parameter(case):.2f}"
+        found[f"{name}_spin_parameter"] = f"{figures.half_spin_parameter(case):.2f}"
         found[f"{name}_spin_screw"] = f"{float(r.screw.spin_parameter):.2f}"
         found[f"{name}_spin_nut"] = f"{float(r.nut.spin_parameter):.2f}"
         before = steps[name][4].parts["curvature"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 
-import make_equation_table
+import equation_table
 from ballscrew.basis.references import PaperEquation, paper_equations
 from ballscrew.evidence.papers.olaru2005.closures import REPAIRS, repairs
 from ballscrew.physics.equations import friction, hertz, rolling
@@ -41,7 +41,7 @@ def numbers() -> dict[str, str]:
 def _of_sections() -> dict[str, str]:
     """Where each error is and the verdict on it, the tests that hold it, and what its repair does to the torque."""
     found: dict[str, str] = {}
-    tests = make_equation_table.tests()
+    tests = equation_table.tests()
     before, *changed = repairs()
     by_slot = dict(zip(REPAIRS, changed, strict=True))
     for key, (places, slot) in ERRATA.items():

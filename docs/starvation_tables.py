@@ -120,11 +120,5 @@ def _rounded(value: float) -> str:
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
 
 
-def write(folder: Path) -> None:
-    """The table as Markdown."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "cold.md").write_text(table(), encoding="utf-8")
-
-
 if __name__ == "__main__":
     print(table())

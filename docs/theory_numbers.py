@@ -8,7 +8,7 @@ import math
 import ballscrew as bs
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut
-from ballscrew.physics.equations import friction, hertz, kinematics, nut_losses, transmission
+from ballscrew.physics.equations import friction, kinematics, nut_losses, transmission
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.friction import arana_traction
 from effect_study.cases import CASES, CATALOGUE, PAPER
@@ -64,7 +64,7 @@ def _of_paper(result, screw) -> dict[str, str]:
     """What the text has of the paper's screw alone."""
     by_chain = 1e3 * screw.loaded_balls * result.ball_to_ball_force * result.frame.path_radius
     return {
-        "t_paper_approach": f"{1e6 * float(_approach(result.screw)):.1f}",
+        "t_paper_approach": f"{1e6 * float(result.screw.mutual_approach):.1f}",
         "t_paper_screw_torque": f"{float(result.screw_torque):.3f}",
         "t_paper_nut_torque": f"{float(result.nut_torque):.3f}",
         "t_paper_split": f"{1e3 * float(result.screw_torque - result.nut_torque):.1f}",
@@ -116,15 +116,6 @@ def _of_oils() -> dict[str, str]:
 def _screw_turn(result) -> float:
     """Speed of the screw for an entrainment speed of one."""
     return float(result.screw_speed / result.entrainment_speed)
-
-
-def _approach(contact):
-    k = contact.radii_ratio
-    kappa = hertz.ellipticity(k)
-    integrals = hertz.elliptic_integrals(kappa)
-    coefficient = hertz.approach_coefficient(k, kappa, integrals.K, integrals.E)
-    W = contact.contact_load / (contact.equivalent_modulus * contact.rolling_radius**2)
-    return hertz.mutual_approach(coefficient, contact.rolling_radius, W)
 
 
 def _centre_distance():

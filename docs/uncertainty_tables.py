@@ -9,9 +9,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.uncertain_value import JUDGEMENT, DefaultUncertainty, default_uncertainties
@@ -20,7 +21,6 @@ from ballscrew.faces.sheets import pictures
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band.sheet import sheet
-from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate.compute import evaluate, request, with_bands
 
@@ -38,16 +38,16 @@ _USES = (
 )
 
 
-def write(folder: Path) -> None:
-    """The picture as SVG and PNG, tables as Markdown."""
-    folder.mkdir(parents=True, exist_ok=True)
-    case = case_file.load(EXAMPLES / "feed_drive.toml")
-    with charts.house_style():
-        options = band.BandOptions()
-        report = band.band(case, options)
-        seen = sheet(case, report, band.curve(case, report, options))
-        charts.save_as(pictures.picture(seen), folder / "band.svg", "svg")
-    (folder / "assumed.md").write_text(assumed_table(), encoding="utf-8")
+def parts() -> dict[str, Any]:
+    """The picture, and the table of assumptions as Markdown."""
+    return {"band.svg": picture, "assumed.md": assumed_table()}
+
+
+def picture() -> Figure:
+    """The band of the torque of an example."""
+    case, options = case_file.load(EXAMPLES / "feed_drive.toml"), band.BandOptions()
+    report = band.band(case, options)
+    return pictures.picture(sheet(case, report, band.curve(case, report, options)))
 
 
 def assumed_table() -> str:

@@ -17,9 +17,8 @@ from ballscrew.faces.sheets import pictures, terminal
 from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.physics.friction.calibrations import calibrated, calibration, calibrations
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.catalogue import printed_rows
 from ballscrew.physics.sizing.rules import RULES
-from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.text_tables import markdown_table
 from ballscrew.questions.validate import compute, sheet
 
@@ -40,11 +39,11 @@ def found():
     return asked, [entries for entries, _ in compute.evaluate(asked)]
 
 
-def write(folder: Path) -> None:
-    """Tables as Markdown, the command's output as text, the figure as SVG."""
-    folder.mkdir(parents=True, exist_ok=True)
+def parts():
+    """Tables as Markdown, the command's output as text, and the figure."""
     asked, sets = found()
-    pages = {
+    drawn = [entries for entries in sets if len(entries[0].points) <= MOST_ROWS]
+    return {
         "summary.md": summary(),
         "vendors.md": vendors_table(),
         "agreement.md": agreement_table(),
@@ -63,11 +62,8 @@ def write(folder: Path) -> None:
         "rule_sources.md": sources_table(),
         "rule_scatter.md": residuals_after_rules(),
         "rows.txt": "\n\n".join(_rows(entries, asked) for entries in sets) + "\n",
+        "validation.svg": lambda: pictures.picture(sheet.picture(drawn, asked)),
     }
-    for name, text in pages.items():
-        (folder / name).write_text(text, encoding="utf-8")
-    drawn = [entries for entries in sets if len(entries[0].points) <= MOST_ROWS]
-    charts.draw(lambda: pictures.picture(sheet.picture(drawn, asked)), folder / "validation.svg")
 
 
 def _rows(entries, asked) -> str:
@@ -416,7 +412,7 @@ def _chain_share(kind, nut, percents) -> float:
     """Mean share of the force between balls in the calibrated no-load torque of the vendor's rows."""
     model, at = calibrated(FrictionModel.reference(), calibration("rexroth-2006")), Conditions()
     shares = []
-    for row in catalogue().values():
+    for row in printed_rows():
         if row.nut != kind:
             continue
         for percent in percents:

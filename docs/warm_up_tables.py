@@ -1,6 +1,6 @@
 """What warms up and by how much: the coupled table with the real nut, its bands, and what a cooled nut does.
 
-``python docs/warm_up_tables.py`` prints all tables; it takes a minute. The screw is that of the shipped row
+All tables take a minute. The screw is that of the shipped row
 ``rexroth-40x10x6-6-double`` with a preload of 3.5 kN, ISO VG 100, to and fro over half a metre of a shaft of 1.2 m
 without a load, in air of 20 °C. Columns take effects in one after the other:
 
@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -129,17 +128,5 @@ def table_of_cooling() -> str:
 
 
 def tables() -> dict[str, str]:
-    """All tables by their names."""
-    return {"effects": table_of_effects(), "bands": table_of_bands(), "cooling": table_of_cooling()}
-
-
-def write(folder: Path) -> None:
-    """All tables as Markdown."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, table in tables().items():
-        (folder / f"{name}.md").write_text(table, encoding="utf-8")
-
-
-if __name__ == "__main__":
-    for name, table in tables().items():
-        print(f"{name}\n\n{table}")
+    """All tables by the names of their files."""
+    return {"effects.md": table_of_effects(), "bands.md": table_of_bands(), "cooling.md": table_of_cooling()}

@@ -12,7 +12,6 @@ import functools
 import importlib
 import inspect
 import os
-import re
 import sys
 import tempfile
 import time
@@ -89,24 +88,6 @@ def description(tally: Tally) -> list[str]:
     return [first, "", *tally.notes] if tally.notes else [first]
 
 
-def with_section(text: str, tally: Tally, seconds: float, scale: float) -> str:
-    """The page with another row and another description of a section, and when it was run again."""
-    before, rest = text.split(BEGIN)
-    block, after = rest.split(END)
-    name, today = re.escape(tally.name), datetime.date.today().isoformat()
-    heading, table = block.lstrip("\n").split("\n", 1)
-    again = f" {tally.name} again on {today}, scale {scale:g}."
-    heading = re.sub(rf" {name} again on [^.]*\.", "", heading) + again
-    table = re.sub(rf"^\| {name} \|.*$", lambda _: row(tally, seconds), table, flags=re.MULTILINE)
-    table = re.sub(
-        rf"^\*\*{name}\*\*.*?(?=^\*\*|\Z)",
-        lambda _: "\n".join(description(tally)) + "\n\n",
-        table,
-        flags=re.MULTILINE | re.DOTALL,
-    )
-    return f"{before}{BEGIN}\n{heading}\n{table.rstrip()}\n{END}{after}"
-
-
 def main() -> None:
     """Run what is asked for, and write the page if it was all."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.hostile", description=__doc__.splitlines()[0])
@@ -131,12 +112,10 @@ def main() -> None:
     )
     block = table(found, heading)
     print(block)
-    page = options.page.read_text(encoding="utf-8")
     if not options.sections:
+        page = options.page.read_text(encoding="utf-8")
         page = f"{page.split(BEGIN)[0]}{BEGIN}\n{block}{END}{page.split(END)[1]}"
-    for tally, seconds in found if options.sections else ():
-        page = with_section(page, tally, seconds, options.scale)
-    options.page.write_text(page, encoding="utf-8")
+        options.page.write_text(page, encoding="utf-8")
     sys.exit(any(tally.counts.wrong for tally, _ in found))
 
 

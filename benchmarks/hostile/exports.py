@@ -22,6 +22,7 @@ import ballscrew as bs
 from ballscrew.exports import hand_over
 from ballscrew.exports.programs.interpreter import Interpreted, program_file, runs_here
 from ballscrew.exports.subject import HandOver
+from support.strategies import MODELS
 
 COUNT, SECONDS = 40_000, 120.0
 
@@ -32,11 +33,6 @@ NUTS = {
     "single": bs.SingleNut(),
     "double": bs.DoubleNut(preload=700.0),
     "oversize": bs.OversizeBallNut(preload=700.0),
-}
-MODELS = {
-    "olaru2005": bs.FrictionModel.olaru2005,
-    "corrected": bs.FrictionModel.corrected,
-    "reference": bs.FrictionModel.reference,
 }
 KINDS = tuple(itertools.product(MODELS, NUTS))
 
@@ -53,7 +49,7 @@ def run(tally: Tally, seed: int) -> None:
 def _handed(model: str, nut: str) -> tuple[HandOver, Interpreted]:
     screw = bs.catalogue()["rexroth-16x5x3-4-double"].screw(nut=NUTS[nut])
     found = hand_over.export_job(
-        MODELS[model](), screw, bs.Lubricant.from_grade("ISO VG 100", temperature=313.15), "program"
+        MODELS[model], screw, bs.Lubricant.from_grade("ISO VG 100", temperature=313.15), "program"
     )
     return found, Interpreted(program_file(found))
 

@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 from benchmarks.hostile import workers
-from benchmarks.hostile.draws import KINDS, Draw, draw
 from benchmarks.hostile.screws import STRANGE, TORQUES, faults_of_efficiency, faults_of_parts
 from benchmarks.hostile.tally import Outcome
 
@@ -24,6 +23,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.laws.nut_losses import Churning, HarrisChurning, LipSeals, ParasiticLaw, Recirculation, Seals
 from ballscrew.physics.laws.traits import traits_of
+from support.nut_cases import KINDS, NutCase, nut_case
 from support.strategies import MODELS, RPM
 
 COUNT, SECONDS = 2_000, 60.0
@@ -36,7 +36,16 @@ def attempt(seed: int, number: int, size: int) -> Outcome:
     rng = np.random.default_rng([seed, number])
     kind = KINDS[number % len(KINDS)]
     name = str(rng.choice(list(MODELS)))
-    part = through_lift_off(draw(kind, rng, size), rng)
+    drawn = nut_case(
+        kind,
+        size,
+        int(rng.integers(1 << 31)),
+        elastic=bool(rng.random() < 0.75),
+        same_side=bool(rng.random() < 0.5),
+        scatter=bool(rng.random() < 1 / 3),
+        balls=int(rng.integers(5, 101)),
+    )
+    part = through_lift_off(drawn, rng)
     is_strange = bool(rng.random() < 0.2)
     speed = np.where(rng.random(size) < 0.1, 0.0, np.exp(rng.uniform(np.log(1e-3), np.log(5000), size))) * RPM
     words = f"attempt {number}, {kind}, {name}, {part.screw.loaded_balls} balls"
@@ -64,7 +73,7 @@ def attempt(seed: int, number: int, size: int) -> Outcome:
     return Outcome(int(np.sum(valid & right)), int(np.sum(~valid & right)), lines)
 
 
-def through_lift_off(part: Draw, rng: np.random.Generator) -> Draw:
+def through_lift_off(part: NutCase, rng: np.random.Generator) -> NutCase:
     """The draw with loads of up to four preloads in one of two; lift-off of rigid bodies is at 2.8."""
     preload = getattr(part.nut, "preload", None)
     if preload is None or rng.random() < 0.5:
@@ -72,7 +81,7 @@ def through_lift_off(part: Draw, rng: np.random.Generator) -> Draw:
     return dataclasses.replace(part, load=preload * rng.uniform(0, 4, part.load.size))
 
 
-def strange(part: Draw, rng: np.random.Generator) -> Draw:
+def strange(part: NutCase, rng: np.random.Generator) -> NutCase:
     """The draw with one number of one nut replaced by one that no nut has."""
     parts: dict[str, Any] = {"screw": part.screw, "nut": part.nut, "bodies": part.bodies}
     arrays = [

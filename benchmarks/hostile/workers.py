@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import contextlib
 import multiprocessing
 import os
 import resource
 import tempfile
 import traceback
 import warnings
-from collections.abc import Callable, Iterator
-from multiprocessing.pool import Pool
+from collections.abc import Callable
 from pathlib import Path
 
 from benchmarks.hostile.tally import Outcome, Tally
 
 from ballscrew import ImplausibleInput, InputError
 
-PROCESSES = 2
+#: This process has threads, which a fork would not.
+_PROCESSES = multiprocessing.get_context("forkserver")
+AT_ONCE = 2
 #: Seconds for one attempt; it takes some at most.
 MOST_SECONDS = 30.0
 #: Bytes of address space of a process.
@@ -86,23 +86,12 @@ def _guarded(attempt: Attempt, seed: int, number: int, size: int) -> Outcome:
         return Outcome(wrong=[f"attempt {number}: {last_line(error)}"] * size)
 
 
-@contextlib.contextmanager
-def _pool(place: str) -> Iterator[Pool]:
-    context = multiprocessing.get_context("forkserver")  # this process has threads, which a fork would not
-    pool = context.Pool(PROCESSES, initializer=prepare, initargs=(place,))
-    try:
-        yield pool
-    finally:
-        pool.terminate()
-        pool.join()
-
-
 def run(attempt: Attempt, tally: Tally, seed: int, size: int = 1) -> None:
     """Make attempts of ``size`` inputs each until all are tried or the time is up."""
     number = 0
     with tempfile.TemporaryDirectory() as place:
         while tally.left:
-            with _pool(place) as pool:
+            with _PROCESSES.Pool(AT_ONCE, initializer=prepare, initargs=(place,)) as pool:
                 lost = False
                 while tally.left and not lost:
                     sizes = _sizes(tally.left, size)

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import math
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
+from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.papers.olaru2005 import case as paper
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
@@ -72,9 +73,9 @@ PAPER = Case(
     axial_load=paper.AXIAL_LOAD,
     screw_speed=paper.SCREW_SPEED,
 )
+_FEED_DRIVE = case_file.load(Path(__file__).parents[2] / "examples" / "feed_drive.toml")
 #: Four turns of a catalogue screw 40 × 10: 75 balls carry (ISO 3408-5: 20 a turn, a quarter turn
-#: lost), which makes a dynamic load rating of 50 kN; the load is a tenth of that. The same as
-#: ``examples/feed_drive.toml``.
+#: lost), which makes a dynamic load rating of 50 kN; the load is a tenth of that.
 CATALOGUE = Case(
     name="catalogue",
     title="a catalogue screw",
@@ -85,18 +86,10 @@ CATALOGUE = Case(
         "oil": "ISO VG 100 at 40 °C",
         "assumed": "E′ 226 GPa, roughness as in the paper",
     },
-    screw=BallScrew(
-        pitch_circle_diameter=0.0414,
-        lead=0.010,
-        ball_diameter=6.35e-3,
-        loaded_balls=75,
-        contact_angle=math.pi / 4,
-        screw_conformity=0.54,
-        nut_conformity=0.54,
-    ),
-    oil=Lubricant.from_grade("ISO VG 100", temperature=313.15),
-    axial_load=5000.0,
-    screw_speed=600 * RPM,
+    screw=_FEED_DRIVE.screw,
+    oil=_FEED_DRIVE.lubricant,
+    axial_load=_FEED_DRIVE.operation.axial_load,
+    screw_speed=_FEED_DRIVE.operation.screw_speed,
 )
 CASES: Mapping[str, Case] = {case.name: case for case in (PAPER, CATALOGUE)}
 

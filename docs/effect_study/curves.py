@@ -29,9 +29,6 @@ MODELS: Mapping[str, FrictionModel] = {
 
 # -- over spin ------------------------------------------------------------------------------------
 
-#: Beyond this the polynomials of Houpert1999 are extrapolated.
-LARGEST_SPIN_OF_POLYNOMIALS = 1.0
-
 
 class SpinCurves(NamedTuple):
     """Slip on the line without a net force, over the spin parameter; moments relative to their maximum."""

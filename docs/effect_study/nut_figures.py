@@ -149,3 +149,8 @@ DRAWN: Mapping[str, Callable[[], Figure]] = {
     "nut_torque": torque,
     "nut_drag": drag,
 }
+
+
+def parts() -> dict[str, Callable[[], Figure]]:
+    """The figures by their files."""
+    return {f"{name}.svg": draw for name, draw in DRAWN.items()}

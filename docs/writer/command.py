@@ -133,7 +133,7 @@ def _server() -> Any:
     sys.path.append(str(tests))
     from support.commands import Commands
 
-    found = Commands(HERE / "libraries.py", [HERE, DOCS, tests])
+    found = Commands(HERE / "libraries.py", [HERE, DOCS, tests, ROOT / "benchmarks"])
     atexit.register(found.close)
     return found
 

@@ -13,6 +13,7 @@ So a page reads where it lies, without a build. What is written stands between m
 - ``file``: a file of the repository, or one that a command of the page has kept (``commands/PAGE/NAME``), as code:
   whole, ``from`` a line, ``to`` before another, or its first ``lines``;
 - ``equation``: the formula of a function, with its symbols, units and source;
+- ``output``: what the Python block before it prints; the blocks of a page share their names;
 - ``<!--= NAME-->0.87<!--/-->``: a number.
 
 Decisions are as they were written: no mark in them is followed. A figure is in ``figures/PART`` where a page shows it.
@@ -26,6 +27,8 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import functools
+import io
 import json
 import os
 import re
@@ -47,13 +50,15 @@ from parts import PARTS, Part, numbers_of, part_of
 
 FIGURES = DOCS / "figures"
 _BLOCK = re.compile(
-    r"^(?P<mark><!-- (?P<kind>command|include|file|equation): (?P<what>[^\n]+?)"
+    r"^(?P<mark><!-- (?P<kind>command|include|file|equation|output): (?P<what>[^\n]+?)"
     r"(?P<options>(?:\n[a-z]+: [^\n]+?)*) -->\n)"
     r"(?P<written>.*?)^<!-- end -->$",
     re.MULTILINE | re.DOTALL,
 )
 #: The options of each kind of mark.
-OPTIONS = {"command": {"show", "keep"}, "include": set(), "file": {"from", "to", "lines"}, "equation": set()}
+OPTIONS = {"command": {"show", "keep"}, "file": {"from", "to", "lines"}} | {
+    kind: set[str]() for kind in ("include", "equation", "output")
+}
 _MARK = re.compile(rf"^<!-- (?:{'|'.join(OPTIONS)}): ", re.MULTILINE)
 _NUMBER = re.compile(r"(?P<mark><!--= (?P<name>\w+)-->)(?P<written>[^<]*)<!--/-->")
 _FIGURE = re.compile(r"\((?:\.\./)*figures/(?P<name>[\w./-]+)\)")
@@ -66,9 +71,9 @@ class Failed(Exception):
 
 
 def pages() -> list[str]:
-    """The names of all pages but those of decisions."""
+    """The names of all pages but those of decisions; the first is outside their folder."""
     names = (path.relative_to(DOCS).with_suffix("").as_posix() for path in DOCS.rglob("*.md"))
-    return sorted(name for name in names if not name.startswith("decisions/"))
+    return ["../README", *sorted(name for name in names if not name.startswith("decisions/"))]
 
 
 class Written:
@@ -135,10 +140,30 @@ class Written:
             if folder in own or not (DOCS / f"{folder.replace('-', '/', 1)}.md").is_file()
         }
 
+    @property
+    def runs(self) -> bool:
+        """Whether something of it is run."""
+        return any(block["kind"] in ("command", "output") for block in self.blocks)
+
     def outputs(self, files: kept.Files) -> list[str]:
-        """What its commands print."""
-        page = Page(self.name, files)
-        return [page.said(typed, keep) for typed, keep in self.commands]
+        """What its commands and its Python blocks print."""
+        page, printed = Page(self.name, files), self._printed()
+        commands = iter(self.commands)
+        return [
+            next(printed) if block["kind"] == "output" else page.said(*next(commands))
+            for block in self.blocks
+            if block["kind"] in ("command", "output")
+        ]
+
+    def _printed(self) -> Iterator[str]:
+        shown = io.StringIO()
+        names = {"print": functools.partial(print, file=shown)}
+        for block in self.blocks:
+            if block["kind"] == "output":
+                shown.truncate(shown.seek(0))
+                source = self.text[: block.start()].rpartition("```python\n")[2].partition("```")[0]
+                exec(compile(source, self.name, "exec"), names)
+                yield shown.getvalue()
 
     def with_all(self, outputs: list[str], numbers: Mapping[str, str]) -> str:
         """The text with everything in its place."""
@@ -152,6 +177,8 @@ class Written:
         what, options = block["what"], _options(block)
         if block["kind"] == "command":
             return _fenced("console", f"$ {displayed(what)}\n{chosen(next(said), options.get('show', '..'))}")
+        if block["kind"] == "output":
+            return _fenced("text", next(said))
         if block["kind"] == "equation":
             return as_markdown(what, self.up)
         if block["kind"] == "file":
@@ -214,7 +241,7 @@ class Made:
         order = [*(part for part in wanted if part not in PARTS), *(part for part in PARTS if part in wanted)]
         self._parts = {name: self._pool.submit(self._part, name) for name in order}
         self._outputs: dict[str, Future[list[str]]] = {
-            page.name: self._pool.submit(page.outputs, self._files) for page in pages if page.commands
+            page.name: self._pool.submit(page.outputs, self._files) for page in pages if page.runs
         }
 
     def _part(self, name: str) -> None:

@@ -1,25 +1,14 @@
 """The table of fields in the documentation: what stands there as an example may be written in a case file."""
 
-import importlib.util
-
+import case_tables
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import within_bounds
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.physics.components.screw import MATERIALS
-from support.commands import ROOT
 from support.rules import for_each
 
-
-def _of_docs(name):
-    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-FIELD_TABLE = _of_docs("field_table")
-EXAMPLES = list(FIELD_TABLE.examples())
+EXAMPLES = list(case_tables.examples())
 
 
 @for_each(
@@ -36,19 +25,19 @@ def test_examples_lie_within_the_bounds_of_their_field(example):
 
 
 def test_examples_are_those_of_the_example_file():
-    table = FIELD_TABLE.field_table()
+    table = case_tables.field_table()
     for row in ('| `ball_diameter` | $d_w$ | `"6.35 mm"`', "| `loaded_balls` | $z$ | `75`", "| `starts` | $N$ | `1`"):
         assert row in table
 
 
 def test_every_section_has_its_name():
-    table = FIELD_TABLE.field_table()
+    table = case_tables.field_table()
     for name in ("screw", *(f"screw.{material}" for material in MATERIALS), "lubricant", "operation", "model"):
         assert f"`[{name}]`" in table
 
 
 def test_every_name_of_a_column_is_in_the_table_of_columns():
-    lines = {line.split("`")[1]: line for line in _of_docs("column_table").column_table().splitlines()[2:]}
+    lines = {line.split("`")[1]: line for line in case_tables.column_table().splitlines()[2:]}
     assert list(lines) == [column.name for column in COLUMNS]
     for column in COLUMNS:
         assert all(f"`{name}`" in lines[column.name] for name in (*column.aliases, *column.hints))

@@ -12,7 +12,7 @@ DOCS = ROOT / "docs"
 WRITER = DOCS / "writer"
 
 _FENCE = re.compile(r"^(?P<indent>\s*)(?P<ticks>`{3,})(?P<info>.*)$")
-_WRITTEN, _END = re.compile(r"^<!-- (?:command|include|file|equation): "), "<!-- end -->"
+_WRITTEN, _END = re.compile(r"^<!-- (?:command|include|file|equation|output): "), "<!-- end -->"
 _NOT_RUN = re.compile(r"^<!-- not run: (?P<reason>.+) -->$")
 
 

@@ -40,7 +40,7 @@ def linear(script):
 
     def residuals(x):
         sets = script.entries(script.declared(*map(float, x)))
-        return np.array([script.in_half_bands(point) for point in script.points(sets)])
+        return np.array([script.in_half_bands(point) for entry in sets for point in entry.points])
 
     at = residuals(best)
     slopes = []

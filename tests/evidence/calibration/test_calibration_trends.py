@@ -17,10 +17,10 @@ BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 def script():
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(BENCHMARKS)
-        import calibration_trends
+        import fit_calibration
 
-        yield calibration_trends
-        del sys.modules["calibration_trends"]
+        yield fit_calibration
+        del sys.modules["fit_calibration"]
 
 
 def cells(table):

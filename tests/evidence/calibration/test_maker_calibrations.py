@@ -23,7 +23,7 @@ TWO_CONTACTS = ("double", "offset")
 def fits():
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(BENCHMARKS)
-        yield importlib.import_module("maker_calibrations")
+        yield importlib.import_module("fit_calibration")
 
 
 def points(name, model):
@@ -34,9 +34,9 @@ def points(name, model):
 @pytest.mark.parametrize("name", ["hiwin", "jis"])
 def test_what_is_stored_is_the_fit(fits, name):
     """If this was meant to move: python benchmarks/fit_calibration.py --write."""
-    line, stored = fits.line_of(fits.FITS[name].rows()), calibrations()[name]
+    line, stored = fits.line_of(fits.MAKERS[name].rows()), calibrations()[name]
     assert stored.share_of_load == pytest.approx(line.share, rel=1e-6)
-    assert stored.maker == fits.FITS[name].maker
+    assert stored.maker == fits.MAKERS[name].maker
     assert (stored.rows, tuple(stored.fitted)) == (len(line.rows), ("share_of_load",))
 
 
@@ -54,9 +54,9 @@ def test_the_fit_is_the_least_of_its_sum(fits):
 
 
 def test_the_page_has_what_is_predicted(fits):
-    """If this was meant to move: python benchmarks/maker_calibrations.py --write."""
+    """If this was meant to move: python benchmarks/fit_calibration.py --maker-calibrations --write."""
     page = BENCHMARKS.parent / "docs" / "maker_calibrations.inc"
-    assert page.read_text(encoding="utf-8") == fits.table()
+    assert page.read_text(encoding="utf-8") == fits.makers_table()
 
 
 def test_rows_are_declared_and_half_are_kept_aside():

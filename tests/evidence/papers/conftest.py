@@ -1,4 +1,4 @@
-"""Lends the tests the script that writes the table of equations."""
+"""Lends the tests the script that makes the table of equations."""
 
 import functools
 import importlib.util
@@ -7,13 +7,13 @@ from types import ModuleType
 
 import pytest
 
-SCRIPT = Path(__file__).resolve().parents[3] / "docs" / "make_equation_table.py"
+SCRIPT = Path(__file__).resolve().parents[3] / "docs" / "equation_table.py"
 
 
 @pytest.fixture(scope="session")
 def equation_table() -> ModuleType:
     """The script, as a module that reads all files once."""
-    spec = importlib.util.spec_from_file_location("make_equation_table", SCRIPT)
+    spec = importlib.util.spec_from_file_location("equation_table", SCRIPT)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)

@@ -1,27 +1,18 @@
 """The README and the pages that ``make readme`` writes show what the program gives today."""
 
-import importlib.util
 import re
-from pathlib import Path
 
 import pytest
 
+import validation_tables
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.sensitivity import SensitivityOptions
 from ballscrew.questions.sensitivity.answer import sensitivity
 
+from .pages import ROOT
+
 pytestmark = pytest.mark.slow
-
-ROOT = Path(__file__).parents[3]
-
-
-@pytest.fixture(scope="module")
-def make_readme():
-    spec = importlib.util.spec_from_file_location("make_readme", ROOT / "docs" / "make_readme.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 @pytest.fixture(scope="module")
@@ -36,22 +27,25 @@ def test_the_picture_is_that_of_the_page(readme):
     assert (ROOT / re.search(r"!\[.*?\]\((.*?)\)", readme)[1]).is_file()
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/start.md"])
-def test_the_python_examples_print_what_stands_below_them(make_readme, page):
+@pytest.mark.parametrize("page", ["../README", "start"])
+def test_the_python_examples_print_what_stands_below_them(writer, page):
     """If this fails, run ``make readme``."""
-    text = (ROOT / page).read_text(encoding="utf-8")
-    assert make_readme.with_examples(text) == text
-    assert "```text" in text
+    found = writer.write.Written(page)
+    written = [block["written"] for block in found.blocks if block["kind"] == "output"]
+    assert written == [f"```text\n{printed}```\n" for printed in found._printed()]  # alone: commands of pages are tests
+    assert written
 
 
-def test_the_rows_of_agreement_are_up_to_date(make_readme, readme):
+def test_the_rows_of_agreement_are_up_to_date(readme):
     """If this fails, run ``make readme``."""
-    assert make_readme.with_agreement(readme) == readme
+    assert validation_tables.agreement_table() in readme
 
 
 def test_two_of_three_makers_state_twice_our_torque(readme):
     """The sentence below the table, by its rows of double nuts."""
-    rows = readme.split("<!-- agreement: begin -->")[1].split("<!-- agreement: end -->")[0].splitlines()[3:]
+    rows = (
+        readme.split("<!-- include: validation/agreement.md -->")[1].split("<!-- end -->")[0].strip().splitlines()[2:]
+    )
     cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows]
     of = {
         who.split(",")[0]: float(ratio.split()[0])
@@ -63,15 +57,6 @@ def test_two_of_three_makers_state_twice_our_torque(readme):
     assert 0.45 < of["THK"] < 0.6
     assert of["Rexroth"] > 0.8
     assert "Two of three makers, THK and HIWIN, state about twice our torque" in " ".join(readme.split())
-
-
-def test_every_part_of_a_page_is_written(make_readme):
-    """No table that the program made stands in a page without a function that writes it."""
-    source = (ROOT / "docs" / "make_readme.py").read_text(encoding="utf-8")
-    for page in make_readme.WRITTEN:
-        names = re.findall(r"<!-- ([\w ]+): begin -->", page.read_text(encoding="utf-8"))
-        assert names
-        assert [name for name in names if f'"{name}"' not in source and not name.startswith("example")] == []
 
 
 def test_the_readme_is_short(readme):
@@ -93,8 +78,9 @@ def test_the_inputs_said_to_move_the_torque_most_are_those_of_the_command():
     assert said in " ".join(agreement.split())
 
 
-def test_the_python_example_is_ten_lines_and_readable(make_readme, readme):
-    assert len([line for line in make_readme.examples(readme)[0].splitlines() if line]) == 10
-    shown = readme.split("<!-- example: begin -->")[1].split("<!-- example: end -->")[0]
+def test_the_python_example_is_ten_lines_and_readable(readme):
+    example, _, rest = readme.split("```python\n")[1].partition("```")
+    assert len([line for line in example.splitlines() if line]) == 10
+    shown = rest.split("<!-- output: python -->")[1].split("<!-- end -->")[0]
     assert "helix" in shown
     assert "np." not in shown

@@ -1,9 +1,7 @@
-"""Write docs/equations.md: each equation of the paper, the function that implements it, the tests that check it.
+"""The equations of the paper: each with the function that implements it and the tests that check it.
 
 Nothing is written by hand: what an equation is and the verdict on it come from the package's data,
 the functions from the addresses in their docstrings, the tests from their ``equation`` markers.
-
-    python docs/make_equation_table.py
 """
 
 from __future__ import annotations
@@ -17,23 +15,9 @@ from pathlib import Path
 
 import ballscrew.physics.equations
 from ballscrew.basis.references import addresses_in, paper_equations
+from ballscrew.questions.shared.text_tables import markdown_table
 
-ROOT = Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs" / "equations.md"
-TESTS = ROOT / "tests"
-
-HEAD = """\
-# The equations of the paper
-
-<!-- Written by docs/make_equation_table.py from the data, the docstrings and the test markers: do not edit. -->
-
-The {count} numbered equations of Olaru et al. (2005), the functions that implement them, and the tests that check
-them. The paper uses the numbers (22) to (26) twice, so an equation is named by section and number. Where the verdict
-is not simply "right", a test in `evidence/papers/test_errata.py` shows what is wrong.
-
-| address | what | verdict | functions | tests |
-|---|---|---|---|---|
-"""
+TESTS = Path(__file__).resolve().parents[1] / "tests"
 
 
 def functions() -> dict[str, list[str]]:
@@ -82,21 +66,21 @@ def tests() -> dict[str, list[str]]:
     return found
 
 
-def page() -> str:
-    """Text of the page."""
+def table() -> str:
+    """The equations by their addresses."""
     by_function, by_test = functions(), tests()
 
     def code(names: list[str]) -> str:
         return ", ".join(f"`{name}`" for name in names)
 
-    lines = [
-        f"| {equation.address.removeprefix('Olaru2005 ')} | {equation.what} | {equation.verdict} | "
-        f"{code(by_function.get(equation.address, []))} | {code(by_test.get(equation.address, []))} |"
+    rows = [
+        (
+            equation.address.removeprefix("Olaru2005 "),
+            equation.what,
+            equation.verdict,
+            code(by_function.get(equation.address, [])),
+            code(by_test.get(equation.address, [])),
+        )
         for equation in paper_equations()
     ]
-    return HEAD.format(count=len(lines)) + "\n".join(lines) + "\n"
-
-
-if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")
-    print(PAGE.relative_to(ROOT))
+    return markdown_table(("address", "what", "verdict", "functions", "tests"), rows)
