@@ -31,8 +31,6 @@ from reach import HERE, ROOT, SOURCE
 from warm_process import run_pytest
 
 WORK = ROOT / "out" / "mutation"
-#: Files without results: what is read, drawn, or only described.
-NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py")
 #: A run of tests that takes so many times as long as they do, and so many seconds more, has noticed the change.
 LONGER, SECONDS_MORE = 4.0, 60.0
 #: The tests of both tiers: what ``make test`` leaves to ``make test-slow`` answers for its lines, too.
@@ -155,7 +153,7 @@ def sampled(rooms: Iterable[str], count: int, seed: int, only: str) -> list[tupl
 
 def changes_in(room: str) -> list[Change]:
     """All changes of the files of a room."""
-    named = [(file, file.relative_to(SOURCE).as_posix()) for file in files_of(room) if file.name not in NOT_CHANGED]
+    named = [(file, file.relative_to(SOURCE).as_posix()) for file in files_of(room)]
     return [change for file, name in named for change in changes_of(file, name)]
 
 
