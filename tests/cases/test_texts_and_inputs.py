@@ -219,3 +219,16 @@ def test_a_number_of_a_fit_as_a_case_file_has_it():
     # one line of a text, which stands among many
     found = [fitted_case._place(places, name) for name in places]
     assert found == ["model.friction.decay", "nut.preload", "screw.lead"]
+
+
+def test_a_remedy_names_the_options_of_its_own_section():
+    options = {"model.name": "--model", "nut.preload": "--preload"}
+    (fault,) = in_options(
+        [Fault("model.name", MISSING, remedy="write name = one, or preload = another")], {"model.name"}, options
+    )
+    assert fault.remedy == "write --model one, or preload = another"
+
+
+def test_what_a_fit_writes_has_no_nulls():
+    written = fitted_case._plain({"one": None, "some": ({"two": None, "three": 3}, 4.0)})
+    assert written == {"some": [{"three": 3}, 4.0]}

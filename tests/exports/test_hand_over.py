@@ -2,17 +2,22 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
+from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.exports import export, hand_over
 from ballscrew.exports.export import TARGETS, Export, target, worst_errors
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.questions.hand_over.answer import _written
 
 OIL = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
+LOAD = fields_of(OperatingState)["axial_load"]
 
 
 @pytest.fixture(scope="module")
@@ -244,3 +249,12 @@ def test_where_the_model_has_no_number_nothing_is_compared(handed):
     true["screw_torque"] = np.full_like(true["screw_torque"], np.nan)
     (error,) = worst_errors(handed, handed.evaluate, points=points, exact=true, outputs=["screw_torque"])
     assert (error.value, error.relative, error.largest) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("default", "quantity", "written"),
+    [(True, None, "yes"), (False, None, "no"), (math.nan, None, ""), (5, None, "5"), (0.5, LOAD, "0.5 N")],
+)
+def test_the_usual_value_of_a_choice_as_it_is_written(default, quantity, written):
+    option = SimpleNamespace(default=default, quantity=quantity)
+    assert _written(option) == written

@@ -1,11 +1,13 @@
 """``ballscrew condition``: a table, logs; as words, JSON and picture; and what is refused."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from ballscrew.basis.output.sheet import Chart, Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.condition import ConditionOptions, answer
-from ballscrew.questions.condition.answer import sheet
+from ballscrew.questions.condition.answer import _shown_rows, sheet
 from support.commands import ROOT
 from support.pictures import drawn
 from support.processes import document_of
@@ -114,3 +116,10 @@ def test_tests_without_a_speed_are_refused_though_the_case_has_one(ballscrew, tm
         document_of(ballscrew("condition", path, *QUICK, "--speed", "100 rpm", "--json"))["results"]["alarm"]
         is not None
     )
+
+
+def test_of_many_tests_the_first_those_about_the_alarm_and_the_last_are_listed():
+    many = SimpleNamespace(states=[None] * 100, alarm=50, baseline=4)
+    assert _shown_rows(many) == [*range(4), *range(45, 56), *range(90, 100)]
+    assert _shown_rows(SimpleNamespace(states=[None] * 100, alarm=None, baseline=4)) == [*range(4), *range(90, 100)]
+    assert _shown_rows(SimpleNamespace(states=[None] * 40, alarm=30, baseline=4)) == [*range(40)]

@@ -8,6 +8,7 @@ import pytest
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.duty.compute import duty
+from ballscrew.questions.duty.sheet import title
 from ballscrew.questions.duty.verdicts import verdicts, warnings
 
 SCREW = """
@@ -187,3 +188,19 @@ def test_the_faster_way_counts_where_it_is_the_way_back(report):
     found = report({"mass": "100 kg"}, motion=motion, more=motor)
     (said,) = [record.text for record in warnings(found) if record.id == "duty.motor_speed"]
     assert "at up to 1800 rpm, above its largest speed 1000 rpm" in said
+
+
+@pytest.mark.parametrize(
+    ("inclination", "words"),
+    [
+        ("0 deg", "horizontal axis"),
+        ("90 deg", "vertical axis"),
+        ("-90 deg", "vertical axis"),
+        ("30 deg", "axis at 30 deg"),
+    ],
+)
+def test_the_title_says_how_the_axis_stands_and_moves(report, inclination, words):
+    line = title(report({"mass": "100 kg", "inclination": inclination}))
+    assert (
+        line == f"{words}, 100 kg, trapezoid over 300 mm at up to 12 m/min: double nut, preload 1000 N, efficiency 0.9"
+    )

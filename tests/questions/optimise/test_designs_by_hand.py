@@ -361,4 +361,5 @@ def test_the_schema_takes_one_name_and_a_list_of_them():
     pair = ["5 mm", "9 mm"]
     for bounds, known in (({"lead": pair}, True), ({"lead": pair[:1]}, False), ({"leed": pair}, False)):
         assert valid({**one, "optimise": {"bounds": bounds}}) is known
+    assert valid({**one, "optimise": {}})
     assert set(VARIABLES) == {"pitch_circle_diameter", "lead", "ball_diameter", "loaded_turns", "preload"}

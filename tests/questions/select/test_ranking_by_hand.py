@@ -17,6 +17,7 @@ from ballscrew.questions.select.candidates import Candidate, Variant
 from ballscrew.questions.select.compute import Selection, ranked
 from ballscrew.questions.select.need import NeedReader, need_of
 from ballscrew.questions.select.requirements import OBJECTIVES, Requirements, front, kept_preload, preload_used
+from ballscrew.questions.select.sheet import _dots
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 HOUR = 3600.0
@@ -388,3 +389,24 @@ def test_the_document_of_a_need_has_what_is_required_and_nothing_else():
     assert found["choices"]["nut"] == ["double"]
     plain = need_document(need_of({"force": "2 kN", "screw_speed": "600 rpm"}))
     assert plain["requirements"] == {"back_driving": "allowed"}
+
+
+def test_dots_of_a_chart_stand_by_what_became_of_the_candidates():
+    """Grey where a check fails, blue where none does, red on the front, whose ranks are named."""
+
+    def one(rank, fits, pareto):
+        return types.SimpleNamespace(
+            rank=rank,
+            pareto=pareto,
+            candidate=types.SimpleNamespace(fits=fits, objectives={"loss": rank, "life": 10 * rank}),
+        )
+
+    ranked = [one(1, True, True), one(2, True, False), one(3, False, False), one(4, True, True)]
+    curves = {curve.name: curve for curve in _dots(ranked, "loss", "life")}
+    assert {name: list(curve.x) for name, curve in curves.items()} == {
+        "fails": [3],
+        "no check fails": [2],
+        "Pareto front": [1, 4],
+    }
+    assert list(curves["Pareto front"].labels) == ["1", "4"]
+    assert [curve.colour for curve in curves.values()] == ["grey", "blue", "red"]
