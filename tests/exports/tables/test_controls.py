@@ -63,6 +63,20 @@ def test_the_curve_has_the_error_it_states(handed, count):
     assert off.max() == pytest.approx(curve.worst_error.value, rel=0.02)
 
 
+@pytest.mark.slow
+def test_the_curve_of_a_nut_whose_balls_are_solved_one_by_one(handed_over):
+    nut = bs.DoubleNut(preload=900.0, bodies=bs.Bodies())
+    subject = handed_over(bs.FrictionModel.corrected(), nut, to="linuxcnc", ranges=RANGES, load=500.0)
+    curve = friction_curve(subject, 4)
+    screw, oil = subject.subject.screw, subject.subject.lubricant
+    for speed, torque in zip(curve.speeds, curve.torques, strict=True):
+        both = [
+            subject.subject.model(screw, oil, axial_load=500.0, screw_speed=s * speed).screw_torque for s in (1, -1)
+        ]
+        assert torque == pytest.approx(max(map(float, map(abs, both))), rel=1e-9)
+    assert 0 < curve.worst_error.relative < 0.05
+
+
 def test_more_points_are_no_worse(handed):
     errors = [friction_curve(handed("linuxcnc"), count).worst_error.relative for count in (4, 8, 16)]
     assert errors == sorted(errors, reverse=True)
