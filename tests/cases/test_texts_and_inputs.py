@@ -9,7 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.cases.case_files import case_file, case_text, descriptions, fitted_case
+from ballscrew.cases.case_files import case_file, case_text, descriptions, fitted_case, uncertain_inputs
 from ballscrew.cases.case_files.case import Origins
 from ballscrew.cases.schema import case_schema
 from ballscrew.cases.schema.case_schema import json_schema
@@ -17,6 +17,7 @@ from ballscrew.cases.schema.reader import in_options
 from ballscrew.cases.screw_tables.catalogue import assumed, seal_source
 from ballscrew.cases.screw_tables.catalogue import case_text as text_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
+from support.commands import ROOT
 from support.drive_case import drive_case
 
 ROW = bs.catalogue()["hiwin-40-20k4"]
@@ -232,3 +233,40 @@ def test_a_remedy_names_the_options_of_its_own_section():
 def test_what_a_fit_writes_has_no_nulls():
     written = fitted_case._plain({"one": None, "some": ({"two": None, "three": 3}, 4.0)})
     assert written == {"some": [{"three": 3}, 4.0]}
+
+
+FITTED = {"numbers": ["ball_diameter", "preload"], "values": [0.1, 3000.0],
+          "covariance": [[1e-6, 1e-3], [1e-3, 100.0]]}  # fmt: skip
+
+
+def fitted(**changes):
+    case = case_file.load(ROOT / "examples" / "service.toml")
+    return dataclasses.replace(case, origins=dataclasses.replace(case.origins, fit={**FITTED, **changes}))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"values": [0.1]},
+        {"values": [math.nan, 3000.0]},
+        {"covariance": [[math.inf, 0.0], [0.0, 1.0]]},
+        {"covariance": [[1.0, 2.0], [2.0, 1.0]]},
+        {"covariance": [1.0, 2.0]},
+    ],
+    ids=["too few values", "a value that is none", "a variance without end", "more than correlated", "no square"],
+)
+def test_a_table_of_a_fit_that_none_has_written_is_refused(changes):
+    with pytest.raises(InputError, match=r"^calibration: is not as a fit writes it"):
+        uncertain_inputs.joint_of(fitted(**changes), {})
+
+
+def test_numbers_of_a_fit_count_where_they_are_still_what_it_found():
+    """Of any distribution its middle counts; a number that was changed by hand is no longer that of the fit."""
+    inputs = {
+        "ball_diameter": types.SimpleNamespace(distribution=bs.LogNormal(0.1, 1.2)),
+        "preload": types.SimpleNamespace(distribution=bs.Normal(3000.0, 10.0)),
+    }
+    joint = uncertain_inputs.joint_of(fitted(), inputs)
+    assert (joint.names, joint.covariance.tolist()) == (tuple(FITTED["numbers"]), FITTED["covariance"])
+    joint = uncertain_inputs.joint_of(fitted(values=[0.2, 3000.0]), inputs)
+    assert (joint.names, joint.covariance.tolist()) == (("preload",), [[100.0]])

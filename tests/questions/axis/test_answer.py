@@ -1,5 +1,7 @@
 """The answer of an axis over its stroke: declared once, and the same on every face."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -35,3 +37,22 @@ def test_every_number_at_a_place_is_on_every_face(report):
         assert described["x-si-unit"] == of_place[name]["x-si-unit"] == quantity.unit
         assert described["description"].startswith(quantity.info.meaning)
         assert name in shown or not np.isfinite(report.series[name]).any()
+
+
+@pytest.mark.parametrize("share", [0.4, 0.49, 0.51, 1.5])
+def test_speed_and_load_are_judged_against_their_limits(report, share):
+    """A shaft with a safety of two against buckling stands half of its load; a speed is judged by its share."""
+    limits = dataclasses.replace(report.case.limits, buckling_safety=2.0, critical_speed_share=0.5)
+    buckling, critical = np.min(report.chain.buckling_load), np.min(report.chain.critical_speed)
+    judged = dataclasses.replace(
+        report,
+        case=dataclasses.replace(report.case, limits=limits),
+        asked=tuple(report.chain.position),
+        largest_load=share * buckling,
+        largest_speed=share * critical,
+    )
+    verdicts = {record.id: record for record in judged.verdicts}
+    for name, worst in (("verdict.buckling", buckling), ("verdict.critical_speed", critical)):
+        assert verdicts[name].holds == (share < 0.5), name
+        assert verdicts[name].limit == pytest.approx(worst / 2, rel=1e-12)
+        assert verdicts[name].severity == ("info" if share < 0.5 else "warning")
