@@ -55,7 +55,11 @@ ROOMS = {
         ("axis/thermal", "questions/warm_up", "golden"),
     ),
     "supports": Room(("axis/supports",), ("axis/supports", "questions/axis", "golden")),
-    "motion": Room(("axis/motion",), ("axis/motion", "cases/test_duty_case.py", "cases/test_trajectory_file.py")),
+    "motion": Room(
+        ("axis/motion",),
+        ("axis/motion", "axis/duty_cycle/test_duty.py", "cases/test_duty_case.py", "cases/test_slips_of_units.py",
+         "cases/test_trajectory_file.py"),
+    ),
     "exports": Room(("exports", "questions/hand_over"), ("exports", "golden")),
     "selection": Room(("questions/select",), ("questions/select", "golden")),
     "optimisation": Room(("questions/optimise",), ("questions/optimise",)),

@@ -111,8 +111,9 @@ def test_changes_of_sign_and_largest_values_of_known_functions():
     """In each part by itself; none at its ends, none in what is no number, none in times that are all alike."""
     states = Trapezoid(stroke=1.0, speed=1.0, acceleration=2.0, returns=False).states()  # 0.5 s, 0.5 s, 0.5 s
     t = states.time
-    found = sign_changes(states, np.sin(math.tau * (t - 0.1)))
-    assert found == pytest.approx([0.1, 0.6, 1.1], abs=1e-12)
+    for size in (1.0, 1e-9, 1e9):  # in any unit
+        found = sign_changes(states, size * np.sin(math.tau * (t - 0.1)))
+        assert found == pytest.approx([0.1, 0.6, 1.1], abs=1e-12)
     assert largest_within(states, np.cos(math.tau * (t - 0.2))) == pytest.approx([0.2, 1.2], abs=1e-6)
     assert sign_changes(states, np.where(t < 0.5, np.nan, 1 - 2 * t)) == []
     assert sign_changes(states, np.where(t < 0.5, np.nan, 0.6 - t)) == pytest.approx([0.6], abs=1e-12)
