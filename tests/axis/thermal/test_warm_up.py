@@ -109,6 +109,7 @@ def test_a_full_bath_is_a_run_of_its_own_that_takes_as_long():
     assert starved.flooded.screw_torque[0] == pytest.approx(bath.screw_torque[0], rel=1e-12)
     assert starved.flooded.screw_torque[0] > 2 * starved.screw_torque[0]
     assert starved.flooded.time[-1] == starved.time[-1] == 1800.0
+    assert np.array_equal(starved.flooded.time, starved.time)
     assert bath.flooded is bath
 
 
