@@ -20,8 +20,9 @@ import typer.testing
 from hypothesis import settings
 
 import ballscrew as bs
-from support.commands import Commands, new_process
+from support.commands import new_process
 from support.quick_kernels import SHIPPED, UNOPTIMISED, set_code_optimisation
+from support.shared_commands import SharedCommands, hold
 
 ROOT = Path(__file__).parents[1]
 
@@ -112,9 +113,7 @@ def as_shipped(quick_kernels):
 @pytest.fixture(scope="session")
 def commands(kernel_cache):
     """Runs commands of the program in processes that have their libraries at once."""
-    found = Commands()
-    yield found
-    found.close()
+    return SharedCommands()
 
 
 @pytest.fixture
@@ -165,6 +164,11 @@ def seed_oil() -> bs.Lubricant:
 def model(request: pytest.FixtureRequest) -> bs.FrictionModel:
     """Each of the three models in turn."""
     return MODELS[request.param]()
+
+
+def pytest_configure(config):
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        hold(config)
 
 
 @pytest.hookimpl(wrapper=True, optionalhook=True)  # only with pytest-xdist

@@ -86,12 +86,12 @@ COMMANDS: dict[str, tuple[str, tuple[str, ...]]] = {
          "residual_rms", "holdout_rms", "rows.used", "rows.outliers"),
     ),
     "service": (
-        "service nut_new.csv nut_worn.csv --case service.toml",
+        "service nut_new.csv nut_worn.csv --case service.toml --set model.name=olaru2005",
         ("results.new.preload", "results.worn.preload", "results.ratio.value", "results.ratio.low",
          "results.ratio.high"),
     ),
     "select": (
-        "select needs/feed_axis.toml",
+        "select needs/feed_axis.toml --filter 63x",
         ("holding", "ruled_out", "candidates.0.worst", "candidates.0.objectives.loss", "candidates.0.objectives.life",
          "candidates.1.objectives.loss", "candidates.5.objectives.rigidity"),
     ),

@@ -4,7 +4,14 @@ import io
 
 import pypdf
 import pytest
-from tests.faces.report.test_report import _EXPONENT, _NO_NUMBERS, LEAST_FILLED, SAMPLES, case_of, least_filled, text_of
+from tests.faces.report.test_report import (
+    _EXPONENT,
+    _NO_NUMBERS,
+    LEAST_FILLED,
+    SAMPLES,
+    case_of,
+    text_and_least_filled,
+)
 
 from ballscrew.basis.output.sheet import Number, words
 from ballscrew.basis.quantities import quantities_of
@@ -52,8 +59,8 @@ def test_each_column_is_what_the_design_has_by_itself(content):
 def test_its_pages_are_few_and_none_is_nearly_blank(content):
     reader = pypdf.PdfReader(io.BytesIO(pdf_bytes(content)))
     assert 3 <= len(reader.pages) <= content.pages == 8
-    assert least_filled(reader) >= LEAST_FILLED
-    text = text_of(reader)
+    text, filled = text_and_least_filled(reader)
+    assert filled >= LEAST_FILLED
     assert not _NO_NUMBERS.search(text)
     assert not _EXPONENT.findall(text)
     assert "designs A, B, C" in text

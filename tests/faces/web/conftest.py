@@ -149,9 +149,13 @@ def asking(**options: Any) -> Iterator[httpx.Client]:
         yield client
 
 
+#: Files whose tests are all left out by these words: to make them while they are collected takes each worker seconds.
+MADE_WHILE_COLLECTED = {"test_fields_of_a_case.py": "not long", "test_schema_of_the_api.py": "not slow and not long"}
+
+
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Of a file whose tests are all long, those are made while it is collected, which takes seconds."""
-    return (collection_path.name == "test_fields_of_a_case.py" and "not long" in config.getoption("markexpr")) or None
+    """Whether a file is left out before its tests are made."""
+    return MADE_WHILE_COLLECTED.get(collection_path.name, "nothing") in config.getoption("markexpr") or None
 
 
 @pytest.fixture(scope="module")

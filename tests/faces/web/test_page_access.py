@@ -142,7 +142,7 @@ def test_results_and_faults_are_said(visit):
 
 
 def test_headings_tables_and_labels(visit):
-    here = visit().open("#A=paper&B=paper")
+    here = visit().open("#A=paper&B=paper&band=0")
     here.page.evaluate(OPEN_ALL)
     levels = here.page.evaluate("[...document.querySelectorAll('h1, h2, h3')].map((one) => Number(one.localName[1]))")
     assert levels[0] == 1

@@ -35,7 +35,7 @@ def test_a_fault_stands_beside_its_field(visit):
 
 
 def test_a_fault_opens_its_section(visit):
-    here = visit(expected=("status of 422",)).open("#A=paper&A.nut.preload=-5+kN&A.nut.type=double")
+    here = visit(expected=("status of 422",)).open("#A=paper&A.nut.preload=-5+kN&A.nut.type=double&band=0")
     fault = here.page.locator("[data-path='nut.preload'] .fault")
     assert fault.is_visible()
     assert fault.inner_text()
@@ -89,7 +89,7 @@ def test_the_page_keeps_up_with_typing(visit):
 
 def test_a_coefficient_can_be_typed_on(visit):
     """The form is made anew with each answer of another law: 0.10 on the way to 0.107 is not made 0.1."""
-    here = visit().open("#A=paper&A.model.friction.boundary_friction_coefficient=0.105")
+    here = visit().open("#A=paper&A.model.friction.boundary_friction_coefficient=0.105&band=0")
     here.reveal(field := "model.friction.boundary_friction_coefficient")
     first = here.text("#summary")
     here.page.locator(here.id(field)).focus()

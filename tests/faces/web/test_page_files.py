@@ -103,7 +103,7 @@ CHARTS = {"torque-chart": 41, "map-chart": (20, 10), "film-chart": 41, "pressure
 
 
 def test_csv_and_svg_of_each_chart(visit):
-    here = visit(scheme="dark").open(f"#A=paper&B={DOUBLE}")
+    here = visit(scheme="dark").open(f"#A=paper&B={DOUBLE}&band=0")
     for chart in CHARTS:
         files_are_the_chart(here, chart)
 

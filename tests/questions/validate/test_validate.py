@@ -65,7 +65,11 @@ def test_a_list_uncalibrated_first_calibrated_last(every):
         assert one["n"] == len(one["rows"])
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in FITTED)) for name in SETS])
+#: Sets of many rows with bands; that of one row is asked alone in the short run.
+MANY_BANDS = (*FITTED, "hiwin-stock", "thk-stock")
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.long] * (n in MANY_BANDS)) for n in SETS])
 def test_each_set_by_itself(name, every, ballscrew):
     """A set asked for alone, with no option, says what it says among all."""
     alone = json.loads(ballscrew("validate", name, "--json").stdout)
