@@ -47,12 +47,12 @@ class Room(NamedTuple):
 ROOMS = {
     "axis": Room(
         ("axis/duty_cycle", "questions/duty", "questions/axis"),
-        ("axis", "cases/test_duty_case.py", "golden",
+        ("axis", "cases/test_duty_case.py", "cases/test_starvation.py", "golden",
          "properties/test_duty.py", "questions/duty", "questions/axis"),
     ),
     "heat": Room(
         ("axis/thermal", "questions/warm_up"),
-        ("axis/thermal", "questions/warm_up", "golden"),
+        ("axis/thermal", "cases/test_starvation.py", "questions/warm_up", "golden"),
     ),
     "supports": Room(("axis/supports",), ("axis/supports", "questions/axis", "golden")),
     "motion": Room(

@@ -81,3 +81,23 @@ def test_the_shaft_is_twice_the_stroke_of_what_moves(left_out, length):
     tables.pop(left_out, None)
     case = case_file.build(tables)
     assert compute.length_of(case, case.surroundings) == pytest.approx(length, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("preload", "words"),
+    [
+        ([1000, 1100, 1050], "the preload goes from 1000 N to 1100 N (+10 %) at work"),
+        ([1000, 1100, 700], "the preload goes from 1000 N to 1100 N (+10 %) at work, and while it stands to "
+         "700 N (-30 %): nut and shaft cool at their own rates"),
+        ([1000, 0, 900], "the preload 1000 N is lost at work: the nut grows away from the shaft"),
+    ],
+)  # fmt: skip
+def test_the_preload_at_work_and_while_the_axis_stands(preload, words):
+    warm_up = SimpleNamespace(
+        network=SimpleNamespace(preload_set=True),
+        preload=np.array(preload, dtype=float),
+        works=np.array([True, True, False]),
+    )
+    (record,) = verdicts._preload(SimpleNamespace(warm_up=warm_up))
+    assert record.text == words
+    assert record.holds == ("lost" not in words)
