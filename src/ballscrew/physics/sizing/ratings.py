@@ -112,7 +112,7 @@ PRELOADED = tuple(name for name, kind in NUTS.items() if "preload" in fields_of(
 
 
 class Listed(Rated, Protocol):
-    """What a row lists of its nut."""
+    """Values that a row lists of its nut."""
 
     @property
     def nut(self) -> str: ...
