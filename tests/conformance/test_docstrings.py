@@ -1,14 +1,31 @@
-"""Every equation says what it is: a sentence, a formula, and a unit for all that goes in and out."""
+"""Docstrings open with a noun phrase or a verb; equations have a sentence, a formula, and units of all values."""
 
+import ast
 import inspect
+import re
 
 import pytest
 
 from ballscrew.basis.references import bibliography
+from support.commands import ROOT
 from support.rules import for_each
 
 from .discovery import EQUATIONS, RECURRENCES
 from .formulas import formula_of
+
+#: Words that open neither a noun phrase nor a verb.
+NO_OPENING = re.compile(r"(?:What|Whether|How|Who|Where|When|Which|Why|That|By|Of|From|As|At|For|In|To|With)\b")
+DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
+
+
+def test_a_docstring_opens_with_a_noun_phrase_or_a_verb():
+    wrong = []
+    for path in sorted((ROOT / "src").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            text = ast.get_docstring(node) if isinstance(node, DOCUMENTED) else None
+            if text and NO_OPENING.match(text):
+                wrong.append(f"{path.relative_to(ROOT).as_posix()}:{node.body[0].lineno}: {text.splitlines()[0]}")
+    assert wrong == []
 
 
 @for_each(equation=EQUATIONS)

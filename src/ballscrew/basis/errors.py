@@ -202,7 +202,7 @@ def in_file(path: str) -> str:
 
 
 def to_set(path: str) -> str:
-    """What a file has before the value of a field, by its path: ``preload = ``."""
+    """Text that a file has before the value of a field, by its path: ``preload = ``."""
     return f"{path.rpartition('.')[2]} = "
 
 
@@ -333,7 +333,7 @@ def renamed_keyword(old: str, new: str) -> Callable[[Callable[P, R]], Callable[P
 
 
 def si_value(where: str, value: Any, unit: str | None) -> Any:
-    """As :func:`without_unit`, but a fault is raised as an :class:`InputError`."""
+    """Convert like :func:`without_unit`, but raise a fault as an :class:`InputError`."""
     converted = without_unit(where, value, unit)
     if isinstance(converted, Fault):
         raise InputError(converted)

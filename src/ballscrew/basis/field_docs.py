@@ -87,7 +87,7 @@ def _fields(cls: Any) -> list[str]:
 
 
 def _described(cls: type) -> dict[str, str]:
-    """What is known of fields and annotated properties, by name."""
+    """Descriptions of fields and annotated properties, by name."""
     hints, comments = get_type_hints(cls, include_extras=True), comments_of(cls)
     quantities = quantities_of(cls)
     values: dict[str, str] = {}

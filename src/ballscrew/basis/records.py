@@ -212,7 +212,7 @@ class Judgement:
         return chosen(self.sentences, values, words)
 
     def record(self, values: Mapping[str, Any], words: Mapping[str, str]) -> Record | None:
-        """What is said at one point, None where nothing is."""
+        """Record at one point, None where nothing is."""
         if not values.get("said", True):
             return None
         holds = bool(values["holds"]) if "holds" in values else self.holds
@@ -275,12 +275,12 @@ def utilisation(demand: Any, capacity: Any) -> Ratio:
 
 
 def at_most(value: Any, limit: Any) -> dict[str, Any]:
-    """What a judgement gives that holds up to a limit; its utilisation is the value over the limit."""
+    """Fields of a judgement that holds up to a limit; its utilisation is the value over the limit."""
     return {"value": value, "limit": limit, "utilisation": utilisation(value, limit), "holds": value <= limit}
 
 
 def at_least(value: Any, limit: Any) -> dict[str, Any]:
-    """What a judgement gives that holds from a limit on; its utilisation is the limit over the value."""
+    """Fields of a judgement that holds from a limit on; its utilisation is the limit over the value."""
     return {"value": value, "limit": limit, "utilisation": utilisation(limit, value), "holds": value >= limit}
 
 

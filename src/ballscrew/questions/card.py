@@ -75,7 +75,7 @@ def set_of(card: TorqueCard) -> ValidationSet:
 
 
 def document(card: TorqueCard) -> dict[str, Any]:
-    """Who measured what and when, the set-up, and what is not stated; SI."""
+    """Origin of the measurement, the set-up, and what is not stated; SI."""
     about = {name: value.isoformat() if name == "when" else value for name, value in card.about.items()}
     setup = {name: getattr(card.setup, name) for name in fields_of(card.setup)}
     return {**about, "setup": {**setup, **card.remarks}, "preload": _preload(card), "notes_of_reader": card.notes}
@@ -127,7 +127,7 @@ _KNOWN = fields_of(TorquePoint)
 
 
 def text_of(cards: Sequence[TorqueCard]) -> str:
-    """What the cards hold, and what they do not state."""
+    """Contents of the cards, and what they do not state."""
     return "\n\n".join(_block(card) for card in cards)
 
 

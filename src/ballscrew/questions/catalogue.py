@@ -45,7 +45,7 @@ def _estimate(one: Estimate) -> dict[str, Any]:
 
 
 def own_nut_text(own_nut: OwnNut) -> str:
-    """What was estimated, one line each, and what does not go together."""
+    """Estimates, one line each, and what does not go together."""
     rows = [
         (
             one.name.replace("_", " "),
@@ -59,7 +59,7 @@ def own_nut_text(own_nut: OwnNut) -> str:
 
 
 def warnings(own_nut: OwnNut) -> list[str]:
-    """What does not go together, in words."""
+    """Contradictions, in words."""
     return [one.text for one in own_nut.warnings]
 
 
@@ -94,7 +94,7 @@ def _cells(row: CatalogueRow) -> list[str]:
 
 
 def _mark(row: CatalogueRow) -> str:
-    """What the row of a list says of its ratings and its torque, in few words."""
+    """Mark of what the row of a list says of its ratings and its torque, in few words."""
     texts = notes(row)
     differs = any(note.startswith(("dynamic", "static")) for note in texts)
     return ", ".join(filter(None, ["ratings differ" * differs, "no torque" * bool(row.refusal)]))
@@ -127,7 +127,7 @@ def show_text(row: CatalogueRow) -> str:
 
 
 def _source(row: CatalogueRow, name: str) -> str:
-    """Where a number is from that is not the row's own."""
+    """Source of a number that is not the row's own."""
     source = getattr(row, f"{name}_source", "")
     return f" ({source})" if source else ""
 

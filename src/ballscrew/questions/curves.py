@@ -90,7 +90,7 @@ def _axis(far: float, share: float, count: int, unit: str) -> str:
 
 
 def axes_around(*, is_nut: bool) -> dict[str, Any]:
-    """How the axes of the curves follow from an operating point, by the curve and the axis, for a page that draws them.
+    """Axes of the curves around an operating point, by the curve and the axis, for a page that draws them.
 
     Each goes to twice the value there, or ``far`` where that is none, from the ``share`` of that end.
     """

@@ -64,7 +64,7 @@ def _cells(sheet: DataSheet) -> list[str]:
 
 
 def show_text(sheet: DataSheet) -> str:
-    """What a data sheet states, and the oil over the temperature, where it may be computed."""
+    """Statements of a data sheet, and the oil over the temperature, where it may be computed."""
     lines = [f"{sheet.name} ({sheet.source})", ""]
     if sheet.is_grease:
         lines += [

@@ -96,7 +96,7 @@ class OneCheck(JudgedCheck):
 
 
 class BesideChecks(with_answers(geometry=Geometry, loads=NutLoads, vendor_rows=VENDOR_ROWS, ratings=BothRatings)):
-    """What the checks of a case have beside its results."""
+    """Values that the checks of a case have beside its results."""
 
     checks: list[OneCheck]
     judged: int = Field(description="number of the checks that were judged; the others lack an input")
@@ -127,7 +127,7 @@ class Compare(_Compared, _ByRules, Shown):
 
 
 class Said(Closed):
-    """What is said of results, and what they rest on."""
+    """Statements on results, and what they rest on."""
 
     verdicts: list[Record]
     checks: list[Record]
@@ -241,7 +241,7 @@ class Optimise(schema(Front), Shown):
 
 
 class OptimisePlan(Closed):
-    """What an optimisation would do."""
+    """Plan of an optimisation."""
 
     designs: int = Field(description="that the search evaluates")
     members: int = Field(description="that are then evaluated in full, at most")
@@ -260,7 +260,7 @@ class WarmUpBands(Open):
 
 
 class BesideWarmUp(Assumed):
-    """What is assumed, and the bands where they are asked for."""
+    """Assumptions, and the bands where they are asked for."""
 
     band: WarmUpBands = field(optional=True)
 
@@ -308,14 +308,14 @@ class SentContent(Closed):
 
 
 class HandOverWords(Closed):
-    """What a hand-over says: ranges, worst errors, warnings."""
+    """Words of a hand-over: ranges, worst errors, warnings."""
 
     lines: list[str]
     ranges: list[str] = Field(description="ranges and worst errors alone")
 
 
 class BesideHandOver(Closed):
-    """What stands beside the results of a hand-over."""
+    """Fields beside the results of a hand-over."""
 
     provenance: Tables
     words: HandOverWords

@@ -72,7 +72,7 @@ class LetGo(ByValue):
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Brake(ByValue):
-    """What happens with the motor off, in several conditions, and the brake that is needed.
+    """Behaviour with the motor off, in several conditions, and the brake that is needed.
 
     A motor holds what its holding torque says, at rest; a set grease holds more, and is not counted on.
     """

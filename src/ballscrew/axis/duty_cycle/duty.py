@@ -95,7 +95,7 @@ def cycle(
     also: Mapping[str, FrictionElement] | None = None,
     recorded: bool = False,
 ) -> Duty:
-    """As :func:`duty`, without asking for any friction yet.
+    """Return the same as :func:`duty`, without asking for any friction yet.
 
     A torque that is the largest, or changes its sign, within a phase is then met by the nearest state only
     (:func:`with_turns`).
@@ -333,7 +333,7 @@ class Duty(ByValue):
         return self.torque * self.motor_speed
 
     def load_reversals(self, least: Ratio = _ROUNDING) -> list[tuple[Duration, Length, int]]:
-        """Where the load changes its sign in a cycle that repeats: time, s, position, m, and number of the phase.
+        """Changes of the load's sign in a cycle that repeats: time, s, position, m, and number of the phase.
 
         A load below the share ``least`` of the largest has no sign: the first state with the new one counts.
         """

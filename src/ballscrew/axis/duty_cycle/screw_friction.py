@@ -65,7 +65,7 @@ class ScrewFriction(ByValue):
 
 
 class Screw(Protocol):
-    """What turns the shaft's torque into a force along the axis, with friction."""
+    """Element that turns the shaft's torque into a force along the axis, with friction."""
 
     @property
     def lead(self) -> Length:

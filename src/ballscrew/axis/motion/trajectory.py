@@ -107,7 +107,7 @@ class Trajectory(ByValue):
         return self.noise * float(np.linalg.norm(self._kernel(half_width)))
 
     def _kernel(self, half_width: int) -> Numbers:
-        """What one sample gives the speeds around it."""
+        """Weights of one sample for the speeds around it."""
         if self.position is None:
             return np.full(2 * half_width + 1, 1.0 / (2 * half_width + 1))
         place = np.arange(-max(half_width, 1), max(half_width, 1) + 1, dtype=float)

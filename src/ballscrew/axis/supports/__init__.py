@@ -1,1 +1,1 @@
-"""What a screw and its table are held by: support bearings, linear guides, and how far they give way."""
+"""Supports of a screw and its table: support bearings, linear guides, and how far they give way."""

@@ -193,7 +193,7 @@ class SupportBearing(ByValue):
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """What stands for sizes that were not given, in words."""
+        """Values that stand for sizes that were not given, in words."""
         words = {
             f"balls of {BALL_SHARE} (D − d)": self.ball_diameter,
             f"balls that fill {FILLED} of the circle": self.balls,

@@ -106,7 +106,7 @@ Numbers = NDArray[np.float64]
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class AxisStiffness(ByValue):
-    """What gives way between the motor and the table, at places of the nut; NaN or infinite is what is not known.
+    """Stiffness of the parts between the motor and the table, at places of the nut; NaN or infinite where not known.
 
     Compliances add: nut, shaft, bearings, mount and twist carry the same force, one behind the other.
     """

@@ -159,7 +159,7 @@ ZERO_CELSIUS = 273.15
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class FrictionFactor(ByValue):
-    """By how much the friction is another than that of the map, where its inputs are uncertain.
+    """Ratio of the friction to that of the map, where its inputs are uncertain.
 
     Known at two temperatures of the oil, between which it goes evenly, and beyond which it stays.
     """

@@ -186,7 +186,7 @@ def warm_up(
 def _followed(
     network: Network, along: Itinerary, start: Numbers, instants: Numbers
 ) -> tuple[Numbers, Numbers, Duration | None]:
-    """As :func:`_integrated`, with the heat where the nut is."""
+    """Integrate like :func:`_integrated`, with the heat where the nut is."""
     slots = [Slot.of([one]) for one in along.networks(network)]
     columns = [np.concatenate([start, [0.0, 0.0]])]
     for state in marched(slots, along.pieces(instants), start[None, :], grows=False):

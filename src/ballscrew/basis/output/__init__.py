@@ -1,1 +1,1 @@
-"""What all output needs: the sheet of an answer, text of JSON, wrapped lines, the bibliography."""
+"""Parts that all output needs: the sheet of an answer, text of JSON, wrapped lines, the bibliography."""

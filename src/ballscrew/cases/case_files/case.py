@@ -73,7 +73,7 @@ class PreloadNote(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Origins:
-    """Where the numbers of a case are from, and how well its file knows them."""
+    """Sources of the numbers of a case, and how well its file knows them."""
 
     #: Grade and temperature the oil was made from, where it was.
     oil: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
@@ -195,7 +195,7 @@ class Case(Displayed):
 
     @property
     def _other_parts(self) -> dict[str, Any]:
-        """What stands beside screw, nut and oil, by the section that its fields have."""
+        """Parts beside screw, nut and oil, by the section that its fields have."""
         axis, motion = self.axis, self.motion
         segments = motion.segments if isinstance(motion, Segments) else ()
         parts = {
@@ -268,7 +268,7 @@ def _light(axis: Axis | None, screw: BallScrew) -> list[Record]:
 
 
 def _of_fit(table: Mapping[str, Any]) -> list[Record]:
-    """What the fit that a case is from said of its own numbers: which of them no screw has."""
+    """Records of the fit that a case is from on its own numbers: which of them no screw has."""
     return [
         Record.warning("calibration.implausible", f"calibration.{place}", f"calibrated, and {text}")
         for place, text in enumerate(table.get("verdicts", ()))

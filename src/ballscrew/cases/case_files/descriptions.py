@@ -203,7 +203,7 @@ def _without_preload(case: Case) -> list[str]:
 
 
 def _against_vendors(case: Case) -> list[str]:
-    """What ``ballscrew validate`` says of nuts like this one, where the model is the one it was run with."""
+    """Results of ``ballscrew validate`` for nuts like this one, where the model is the one it was run with."""
     near = vendor_rows_like(case)
     if near is None:
         return []

@@ -215,7 +215,7 @@ def _segments(reader: Reader, tables: list[Any]) -> tuple[Segment, ...]:
 
 
 def _made(reader: Reader, where: str, make: Callable[[], Any]) -> Any:
-    """What ``make`` returns; its faults are those of a place in the file."""
+    """Return what ``make`` returns; its faults are those of a place in the file."""
 
     def place_of(field: str) -> str:
         section, _, name = field.partition(".")

@@ -116,7 +116,7 @@ BY_RULE = {name: _quantity(RULES[name]) for name in DRAG_RULES}
 
 
 class OfRule(NamedTuple):
-    """What a rule gives for a nut."""
+    """Torque that a rule gives for a nut."""
 
     rule: Rule
     #: Torque of the nut without load and seals, N m.
@@ -151,7 +151,7 @@ def make_of(case: Case) -> str:
 
 
 def by_rules(case: Case) -> Sequence[OfRule]:
-    """What the makers' rules give for the nut of a case, that of its own maker first; none without preload."""
+    """Results of the makers' rules for the nut of a case, that of its own maker first; none without preload."""
     subject = subject_of(case)
     if not subject.preload:
         return ()

@@ -101,7 +101,7 @@ def dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[s
 
 
 def seal_torque_source(row: CatalogueRow | None, nut: Nut) -> str:
-    """Where the torque of the seals of a nut is from, where it is that of its row and the row says so; else empty."""
+    """Source of the torque of the seals of a nut, where it is that of its row and the row says so; else empty."""
     seals = nut.losses.get("seals")
     if row is None or getattr(seals, "seal_torque", None) != row.seal_torque:
         return ""

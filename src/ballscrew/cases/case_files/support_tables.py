@@ -171,7 +171,7 @@ def _of_axis(reader: Reader) -> Mapping[str, Any]:
 
 
 def _table(reader: Reader, axis: Axis, where: Mapping[str, float], carriages: float) -> GuidedTable | None:
-    """Where the mass is on four carriages; None where the case does not tell."""
+    """Table with its mass on four carriages; None where the case does not tell."""
     if not where:
         return None
     for name in ("carriage_spacing", "rail_spacing"):
@@ -209,7 +209,7 @@ def _lubricant(reader: Reader, where: str, oil: dict[str, Any], lubricant: Lubri
 
 
 def _made(reader: Reader, where: str, make: Callable[[], Any]) -> Any:
-    """What ``make`` returns; its faults are those of a place in the file."""
+    """Return what ``make`` returns; its faults are those of a place in the file."""
 
     def place_of(field: str) -> str:
         section, _, name = field.rpartition(".")

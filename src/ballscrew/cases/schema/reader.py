@@ -74,7 +74,7 @@ class Reader:
         self.faults.append(Fault(where, problem, given, remedy, part=part))
 
     def made(self, make: Callable[[], T], place_of: Callable[[str], str]) -> T | None:
-        """What ``make`` returns; its faults are of the place in the file that ``place_of`` gives for each."""
+        """Return what ``make`` returns; its faults are of the place in the file that ``place_of`` gives for each."""
         try:
             return make()
         except InputError as error:

@@ -288,7 +288,7 @@ def _distance(row: CatalogueRow, diameter: float, lead: float) -> float:
 
 
 def assumed(row: CatalogueRow) -> dict[str, str]:
-    """In words, what stands for what a catalogue leaves out, by field."""
+    """Values, in words, that stand for what a catalogue leaves out, by field."""
     angle = units.shown(row.contact_angle, FIELDS["contact_angle"])
     words = {
         "starts": "one thread start",
@@ -400,7 +400,7 @@ _ESTIMATED_AS: Mapping[str, tuple[str, ...]] = {
 
 
 def _comment(one: Estimate) -> str:
-    """What stands beside an estimated number: its band, and where it is from."""
+    """Comment beside an estimated number: its band, and where it is from."""
     band = " to ".join(units.shown(value, one.quantity, digits=4) for value in (one.low, one.high))
     # a case file is written without letters of other encodings
     return f"estimated, {band}: {one.source}".replace("\N{MICRO SIGN}", "u")

@@ -85,7 +85,7 @@ class Setup:
 
 
 class _About(BaseModel):
-    """Who measured what and when, and what others may do with it."""
+    """People, subject and date of a measurement, and what others may do with it."""
 
     model_config = ConfigDict(extra="forbid", title="Card")
 
@@ -100,7 +100,7 @@ class _About(BaseModel):
 
 
 class _SetupText(BaseModel):
-    """What of the set-up is no quantity."""
+    """Remarks on the set-up that are no quantities."""
 
     wipers: bool = Field(strict=True, description="whether wipers or seals were fitted during the measurement")
     instrument: str = Field(min_length=1, description="sensor and how the nut is held")
@@ -134,7 +134,7 @@ class TorqueCard:
 
     @property
     def notes(self) -> list[str]:
-        """What keeps the card from being compared as it is, and what is not stated."""
+        """Reasons why the card cannot be compared as it is, and what is not stated."""
         notes: list[str] = []
         if self.synthetic:
             notes.append("synthetic: made by a model, says nothing of a screw")

@@ -75,7 +75,7 @@ class RingWriter:
         self._sums: dict[str, Value] = {}
 
     def before_steps(self) -> None:
-        """What is the same in all steps of a vector."""
+        """Compute what is the same in all steps of a vector."""
         self._stiffness = self.w.load(f"%input{self.stiffness}", "%column")
 
     def before_links(self) -> None:
@@ -151,7 +151,7 @@ class RingWriter:
         return squares
 
     def are_open(self, tolerance: Value, rounding: Value) -> Value:
-        """Where a ring is out of balance by itself: what stiff bars make of rounded places would hide that."""
+        """Mask where a ring is out of balance by itself: what stiff bars make of rounded places would hide that."""
         w = self.w
         limit = w.exact("fadd", tolerance, w.exact("fmul", rounding, self.pushed))
         return w.on_masks("or", *(w.compare("ogt", left, limit) for left in self._left))
@@ -163,7 +163,7 @@ class RingWriter:
             w.named(f"%opening{ring}_next", w.choose(still, w.exact("fadd", before, self._step[ring]), before))
 
     def carried_back(self, carried: Value) -> Value:
-        """What the links hand on with the step of the openings."""
+        """Imbalance that the links hand on with the step of the openings."""
         for ring in (0, 1):
             column = self.w.load(self.scratch[ring], "%back_scratch")
             carried = self.w.exact("fadd", carried, self.w.exact("fmul", column, self._step[ring]))
@@ -207,7 +207,7 @@ class Chains(NamedTuple):
 
 
 class Rings(NamedTuple):
-    """What the links of each chain push open: one ring for those before a link, and one for it and those behind."""
+    """Rings that the links of each chain push open: one for those before a link, and one for it and those behind."""
 
     #: (chains)
     stiffness: Field
@@ -309,7 +309,7 @@ def _text(program: Program, sources: Sequence[Source], lanes: int, *, on_rings: 
 
 
 class _Forces(NamedTuple):
-    """What is the same in all steps of a vector of chains."""
+    """Forces that are the same in all steps of a vector of chains."""
 
     #: Inputs of the springs that differ by chain only, by their number in the program.
     of_springs: Mapping[int, Value]
@@ -321,7 +321,7 @@ class _Forces(NamedTuple):
 
 
 class _StepBefore(NamedTuple):
-    """What a step knows of the one before: its imbalance, the chains that are open, and those that are given up."""
+    """Data of the step before: its imbalance, the chains that are open, and those that are given up."""
 
     size: Value
     open_: Value
@@ -331,7 +331,7 @@ class _StepBefore(NamedTuple):
 
 
 class _LinkBefore(NamedTuple):
-    """What has come to a link from those before it."""
+    """Values that have come to a link from those before it."""
 
     #: Its own displacement, loaded with that of the link before.
     x: Value
@@ -349,7 +349,7 @@ class _LinkBefore(NamedTuple):
 
 
 class _Imbalance(NamedTuple):
-    """What is left of the balance of a chain, and the force that its rounding is measured by."""
+    """Remainder of the balance of a chain, and the force that its rounding is measured by."""
 
     size: Value
     rounded: Value
@@ -471,7 +471,7 @@ class _ChainWriter:
         return x_next, bar_next
 
     def _left_at_link(self, forces: _Forces, before: _LinkBefore, of_spring: Value) -> Value:
-        """What is left of the balance of a link: of what enters, its spring, and the bars on both sides."""
+        """Remainder of the balance of a link: of what enters, its spring, and the bars on both sides."""
         w = self.w
         w.lines.append("  %is_first = icmp eq i64 %link, 0")
         w.lines.append("  %is_last = icmp eq i64 %link, %last_link")

@@ -263,7 +263,7 @@ class Kernel:
 
 
 def kept(name: str) -> tuple[bytes, bytes] | None:
-    """What was kept on disk for this processor and this compiler under a name: a header, and machine code."""
+    """Entry kept on disk for this processor and this compiler under a name: a header, and machine code."""
     result = None
     with contextlib.suppress(OSError, RuntimeError):  # a look at the folder, before the compiler is loaded
         if any(path.name.startswith(_short(name)) for path in cache_folder().iterdir()):
@@ -280,7 +280,7 @@ def keep(name: str, header: bytes, machine_code: bytes) -> None:
 
 
 def _short(name: str) -> str:
-    """How files begin that are kept under a name, for whatever processor."""
+    """Prefix of files that are kept under a name, for whatever processor."""
     return f"{hashlib.sha256(name.encode()).hexdigest()[:16]}-"
 
 

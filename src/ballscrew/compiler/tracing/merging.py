@@ -169,7 +169,7 @@ def _roots(steps: Sequence[tuple[int, Step]], outputs: set[int], sums: Mapping[i
 def _bases_by_weights(
     roots: Mapping[int, _LogarithmSum], groups: Sequence[int]
 ) -> dict[int, tuple[tuple[int, float], ...]]:
-    """For each base, the bases with proportional weights in every sum, as factors (1) or divisors (−1)."""
+    """Bases with proportional weights in every sum, for each base, as factors (1) or divisors (−1)."""
     column: dict[int, list[tuple[int, float]]] = {}
     for root, one in roots.items():
         for base, weight in one.weights.items():

@@ -111,7 +111,7 @@ _Call = tuple[Any, Callable[[list[Any]], Iterable[Any]], int]
 
 
 def _taken_from(positions: Sequence[int]) -> Callable[[list[Any]], Iterable[Any]]:
-    """What stands at some positions of a list; compiled code of Python takes half as long as a list comprehension."""
+    """Getter of some items of a list; compiled code of Python takes half as long as a list comprehension."""
     only = positions[0]
     return operator.itemgetter(slice(only, only + 1)) if len(positions) == 1 else operator.itemgetter(*positions)
 

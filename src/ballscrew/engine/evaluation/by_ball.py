@@ -134,7 +134,7 @@ class ByBall:
             self._behind.run([*of_points, *([None] * len(OF_BALLS)), *result], results)
 
     def _tables(self, of_points: Sequence[Any], count: int) -> dict[str, NDArray[np.float64]]:
-        """What does not depend on the ball, for each point."""
+        """Values that do not depend on the ball, for each point."""
         program = self._cut.columns
         masks = {i for i, step in program.steps if step.is_mask}
         result = {n: np.empty(count, dtype=bool if i in masks else float) for n, i in program.outputs.items()}
@@ -145,7 +145,7 @@ class ByBall:
     def _over_balls(
         self, inputs: Sequence[NDArray[np.float64]], balls: int, count: int
     ) -> tuple[dict[str, NDArray[Any]], dict[str, NDArray[Any]]]:
-        """What each ball has, by name, and what is reduced already."""
+        """Values of each ball, by name, and what is reduced already."""
         sums = self._cut.sums
         names = self._cut.outputs
         if self._kernel is not None:
@@ -212,7 +212,7 @@ def _names(subject: Configuration, outputs: tuple[str, ...], names: Sequence[str
 
 
 def _kept_of(kept_as: Mapping[bool, str], work: int) -> CutByBall | None:
-    """What is kept, the optimised one first; one that was compiled quickly is not for long work."""
+    """Kept cut, the optimised one first; one that was compiled quickly is not for long work."""
     for quick, name in kept_as.items():
         cut: CutByBall | None = kept.get(name, _read)
         if cut is not None and (not quick or work < ENOUGH_TO_OPTIMISE):
@@ -289,7 +289,7 @@ class CutByBall:
     def of(
         cls, stages: Stages, cut: Split, names: tuple[str, ...], formulas: str, points: Program | None = None
     ) -> CutByBall:
-        """Of a recording that was cut; ``points`` for NumPy."""
+        """Build it from a recording that was cut; ``points`` for NumPy."""
         digest = hashlib.sha256(formulas.encode()).hexdigest()
         outputs = tuple(cut.points.outputs)
         return cls(
@@ -310,7 +310,7 @@ class CutByBall:
 
     @property
     def sources(self) -> list[Source]:
-        """Where the inputs of what each ball has are from."""
+        """Sources of the inputs of what each ball has."""
         return [source for source, _ in self.tables]
 
     @property
@@ -319,7 +319,7 @@ class CutByBall:
         return sums_of(self.reductions)
 
     def behind_of(self, outputs: tuple[str, ...]) -> Program:
-        """What is behind the reductions, for some of the outputs."""
+        """Program behind the reductions, for some of the outputs."""
         if outputs not in self._behind:
             self._behind[outputs] = _of(self.behind, outputs)
         return self._behind[outputs]

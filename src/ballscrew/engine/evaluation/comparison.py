@@ -122,7 +122,7 @@ class Comparison:
 
     @property
     def spans(self) -> Mapping[str, tuple[float, float]]:
-        """By slot, how far the laws that count and are valid here move the torque; the widest first."""
+        """Ranges, by slot, in which the laws that count and are valid here move the torque; the widest first."""
         spans: dict[str, tuple[float, float]] = {}
         for row in self.laws:
             if row.candidate.counts and not row.outside and math.isfinite(row.change):

@@ -153,7 +153,7 @@ class Evaluation:
 
     @property
     def attributes(self) -> dict[str, str]:
-        """Which engine evaluates, and why, as attributes of a dataset."""
+        """Name of the engine that evaluates, and the reason, as attributes of a dataset."""
         return {"engine": self.engine, "engine_reason": self.reason}
 
     def at(self, values: Mapping[str, Any]) -> Evaluation:
@@ -273,7 +273,7 @@ def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:
 
 
 def _fingerprint(plan: Plan, engine: Engine, program: Program | None, formulas: Callable[[], str]) -> Fingerprint:
-    """That of the formulas as they are evaluated: recorded steps, or else the model as code and values."""
+    """Fingerprint of the formulas as they are evaluated: recorded steps, or else the model as code and values."""
     held: dict[str, Any] = {"engine": engine, "formulas": formulas()}
     if program is not None:
         # steps of other libraries are known by more than their names

@@ -207,7 +207,7 @@ class _Visit:
         return self._of_object(value)
 
     def _of_container(self, value: Any) -> bytes:
-        """What a container holds; in the order of its digests where it has no order that counts."""
+        """Bytes of what a container holds; in the order of its digests where it has no order that counts."""
         kind = type(value)
         if kind in (list, tuple):
             return self._all(kind.__name__, value)

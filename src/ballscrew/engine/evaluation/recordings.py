@@ -184,7 +184,7 @@ _kept = _Kept()
 
 
 class _AsImported:
-    """Whether the functions and constants that recordings follow from are still those that were imported."""
+    """Test of whether functions and constants that recordings follow from are still those that were imported."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

@@ -217,7 +217,7 @@ MOST_IN_MEMORY = 64
 
 
 class Layout(NamedTuple):
-    """What a kernel reads and writes."""
+    """Arrays that a kernel reads and writes."""
 
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
@@ -388,7 +388,7 @@ class OilFollows:
 
 
 class _Kept:
-    """What was kept of structures: in memory, on disk, or made now."""
+    """Objects kept of structures: in memory, on disk, or made now."""
 
     def __init__(self) -> None:
         #: Held while something is made: one after another, as others may want the same.
@@ -400,7 +400,7 @@ class _Kept:
         self._asked: OrderedDict[str, int] = OrderedDict()
 
     def get(self, name: str, read: Callable[[bytes, bytes], Any]) -> Any | None:
-        """That of a name; None where there is none."""
+        """Return the object of a name; None where there is none."""
         with self._lock:
             if name in self._found:
                 self._found.move_to_end(name)

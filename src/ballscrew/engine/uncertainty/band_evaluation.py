@@ -151,7 +151,7 @@ class BandEvaluator:
 
     @property
     def dimensions(self) -> int:
-        """Of a sample: one for each input, and one for each slot."""
+        """Number of dimensions of a sample: one for each input, and one for each slot."""
         return self.inputs + len(self.ratios)
 
     def evaluate(self, shares: Values, done: Callable[[int, int], None] | None) -> dict[str, NDArray[Any]]:
@@ -167,7 +167,7 @@ class BandEvaluator:
         }
 
     def law_factors_at(self, place: int) -> list[Values]:
-        """By slot the factors of the torque of the laws that are valid at one of the points; 1 is the model's own."""
+        """Factors, by slot, of the torque of the laws that are valid at one of the points; 1 is the model's own."""
         values = [np.array([np.ravel(ratio)[place] for _, ratio in laws]) for laws in self.ratios.values()]
         return [np.array([1.0, *ratios[np.isfinite(ratios)]]) for ratios in values]
 

@@ -242,7 +242,7 @@ def shares(block: slice, inputs: int, seed: int) -> NDArray[np.float64]:
 
 
 class Statistics(NamedTuple):
-    """How numbers are distributed; NaN where there are none, and infinite where some are."""
+    """Distribution of numbers; NaN where there are none, and infinite where some are."""
 
     mean: float
     #: √(Σ(x − x̄)²/(n − 1)); NaN of one number, and of infinite ones.

@@ -110,7 +110,7 @@ class Swing(NamedTuple):
 
     @property
     def width(self) -> float:
-        """How far apart they are; NaN where either is no number."""
+        """Distance between the two; NaN where either is no number."""
         return abs(self.at_upper - self.at_lower)
 
 

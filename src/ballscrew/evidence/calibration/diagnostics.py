@@ -331,7 +331,7 @@ def verdict_records(fit_result: FitResult, dynamic_load_rating: Force | None = N
 
 
 def _is_zero_by_chance(estimate: Estimate) -> bool:
-    """Whether a number below zero reaches it by its interval: a true zero is found below it half of the time."""
+    """Test whether a number below zero reaches it by its interval: a true zero is found below it half of the time."""
     ends = estimate.interval()
     return estimate.value < 0 and ends is not None and ends[1] >= 0
 

@@ -351,7 +351,7 @@ def points_of(
 def _temperature_error(
     half_width: float, made: Configuration, points: Mapping[str, Any], fitted: _Fitted, uncertainty: Uncertainty
 ) -> TemperatureError:
-    """What the error of the oil temperature does to the estimates."""
+    """Effect of the error of the oil temperature on the estimates."""
     solution, problem = fitted.solution, fitted.problem
     if half_width == 0:
         return TemperatureError(0.0, np.zeros(fitted.held_out.size), np.zeros(solution.values.size))
@@ -557,7 +557,7 @@ _WORTH = 0.7
 
 
 def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str]], CalibratedModel]) -> list[Record]:
-    """That the constant torque is what the model misses, if a fit with it free shows so.
+    """Warn that the constant torque is what the model misses, if a fit with it free shows so.
 
     Friction of seals and bearings is in nearly every log, and this fit is cheap: no contact is solved anew.
     """

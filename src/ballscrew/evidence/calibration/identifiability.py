@@ -44,7 +44,7 @@ class IdentifiableDirections:
 
     @classmethod
     def of(cls, root: Vector) -> IdentifiableDirections:
-        """From derivatives of residuals in units of the scatter by scaled parameters, of shape (rows, parameters)."""
+        """Decompose derivatives of residuals over the scatter by scaled parameters, of shape (rows, parameters)."""
         count = root.shape[1]
         _, s, directions = np.linalg.svd(np.vstack([root, np.zeros((count, count))]), full_matrices=False)
         identifiable = (MAXIMUM_RELATIVE_ERROR * s >= 1) & (s > ROUNDING_SHARE * s.max(initial=0.0))
@@ -99,7 +99,7 @@ class Identifiability:
 
     @classmethod
     def of(cls, solution: Solution, names: Sequence[str], scale: Vector) -> Identifiability:
-        """From a fit whose first parameters are the named ones; the others are projected out."""
+        """Judge a fit whose first parameters are the named ones; the others are projected out."""
         root = weighted_derivatives(solution)
         count = len(names)
         alone, others = root[:, :count], root[:, count:]

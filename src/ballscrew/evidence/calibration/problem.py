@@ -357,7 +357,7 @@ class Problem:
 
     @property
     def deviations(self) -> dict[int, Distribution]:
-        """By place, what parameters are anyway."""
+        """Distributions that parameters have anyway, by place."""
         return {i: Normal(0.0, p.deviation) for i, p in enumerate(self.parameters) if p.deviation is not None}
 
     def quantity(self, name: str) -> Quantity:

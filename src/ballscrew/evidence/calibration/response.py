@@ -160,7 +160,7 @@ def _in_rows(points: Mapping[str, NDArray[np.float64]]) -> dict[str, xr.DataArra
 
 
 def _steps(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What is added to each number and taken from it."""
+    """Steps added to each number and taken from it."""
     return STEP * np.where(values == 0, SCALE_OF_ZERO, np.abs(values))
 
 
@@ -193,7 +193,7 @@ _STEP = 0.5
 
 
 def uses_temperatures(lubricant: Lubricant, log: TorqueLog) -> bool:
-    """Whether the temperatures of a log are used: there are some, and the oil follows them."""
+    """Test whether the temperatures of a log are used: there are some, and the oil follows them."""
     return bool(lubricant.follows_temperature and log.temperature is not None)
 
 
@@ -234,7 +234,7 @@ class TemperatureError:
 
     @property
     def covariance(self) -> Vector:
-        """What it adds to the covariance of the estimates: ``J J^T s^2``."""
+        """Addition to the covariance of the estimates: ``J J^T s^2``."""
         return np.outer(self.shift, self.shift) * self.deviation**2
 
 

@@ -358,7 +358,7 @@ def _linear_columns(motion: Kinematics) -> Floats:
 
 @dataclasses.dataclass(frozen=True)
 class DeadTime:
-    """How long the motion follows the force, s, with half its interval; ``corrected`` where it is taken off."""
+    """Delay of the motion behind the force, s, with half its interval; ``corrected`` where it is taken off."""
 
     value: float
     half_width: float

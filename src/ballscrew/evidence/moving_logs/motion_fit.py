@@ -69,7 +69,7 @@ Drag = Annotated[Any, Unit("N s/m")]
 
 @dataclasses.dataclass(frozen=True)
 class _Numbers:
-    """What a fit of a moving log estimates beside the numbers of the screw's model."""
+    """Estimates of a fit of a moving log beside the numbers of the screw's model."""
 
     mass: Annotated[Mass, Info("M", "moved mass, with what the rotating parts weigh at the nut, J (2π/P_h)²")]
     offset: Annotated[Force, Info("F_g", "force at rest: gravity and the zero error of the force together")]
@@ -434,7 +434,7 @@ def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) ->
 
 
 def _unidentified(estimates: Mapping[str, MotionEstimate]) -> list[Record]:
-    """What of the screw's model the log does not identify, in one record."""
+    """Warning of the numbers of the screw's model that the log does not identify, in one record."""
     names = [e.name for e in estimates.values() if e.model == SCREW and not (e.identified or e.at_bound or e.given)]
     if not names:
         return []

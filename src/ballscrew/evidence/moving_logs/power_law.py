@@ -213,12 +213,12 @@ class SteadySpeed:
 
     @property
     def friction(self) -> float:
-        """What both directions need alike."""
+        """Force that both directions need alike."""
         return (self.forward - self.backward) / 2
 
     @property
     def offset(self) -> float:
-        """What one direction needs more than the other: gravity, and the zero error."""
+        """Force that one direction needs more than the other: gravity, and the zero error."""
         return (self.forward + self.backward) / 2
 
 

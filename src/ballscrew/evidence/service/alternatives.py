@@ -52,7 +52,7 @@ class Alternative:
 
     @property
     def explains(self) -> bool:
-        """Whether it explains the log as well as the preload does."""
+        """True where this explains the log as well as the preload does."""
         return self.rms <= AS_WELL * self.rms_of_preload
 
 
@@ -115,7 +115,7 @@ def alternatives(
     rows: CountedRows,
     uncertain: Mapping[str, Distribution],
 ) -> list[Alternative]:
-    """What else could explain a log than the preload that it told, were the preload as given.
+    """Explanations of a log other than the preload that it told, were the preload as given.
 
     ``subject`` and ``warmer`` are what all logs together told. Each number is fitted by itself, beside the errors of
     the sensor and what is not known of the temperature, to the rows that count.

@@ -54,7 +54,7 @@ class Chart(NamedTuple):
 
     @property
     def falls(self) -> bool:
-        """Whether the alarm, if there is one, is of a fall."""
+        """True where there is an alarm and it is of a fall."""
         return self.alarm is not None and bool(self.fall[self.alarm] > self.limit[self.alarm])
 
 
@@ -67,7 +67,7 @@ class Trend(NamedTuple):
 
     @property
     def told(self) -> bool:
-        """Whether the interval leaves out zero."""
+        """True where the interval leaves out zero."""
         return bool(self.low > 0 or self.high < 0)
 
 
@@ -191,18 +191,18 @@ class Means:
 
     @property
     def count(self) -> int:
-        """How many tests there are."""
+        """Number of tests."""
         return len(self.labels)
 
     @property
     def logged(self) -> NDArray[np.bool_]:
-        """By test, whether its temperature is known."""
+        """Mask of the tests whose temperature is known."""
         known = np.isfinite(self.temperature)
         return np.array([bool(known[self.test == i].all()) for i in range(self.count)])
 
     @property
     def at_the_same_speeds(self) -> bool:
-        """Whether every test has the same speeds."""
+        """True where every test has the same speeds."""
         if np.ptp(self.speeds) > 0:
             return False
         speeds = np.log(self.screw_speed).reshape(self.count, -1)
@@ -210,7 +210,7 @@ class Means:
 
     @property
     def speeds(self) -> NDArray[np.int64]:
-        """By test, how many means it has."""
+        """Number of means of each test."""
         return np.bincount(self.test, minlength=self.count)
 
 

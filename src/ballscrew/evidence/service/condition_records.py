@@ -71,7 +71,7 @@ def _warning(name: str, subject: str, text: str, **more: Any) -> Record:
 
 
 def _starved(means: Means, subject: Configuration, graded: bool) -> list[Record]:
-    """That the model, which reduces each torque to one temperature and speed, is starved of oil in some test."""
+    """Warn that the model, which reduces each torque to one temperature and speed, is starved of oil in some test."""
     points = {"axial_load": means.axial_load, "screw_speed": means.screw_speed}
     own = subject.lubricant.temperature
     if graded and own is not None:
@@ -185,7 +185,7 @@ def _of_torques(made: Condition, means: Means) -> list[Record]:
 
 
 def _warmer(subject: Configuration, reduction: Reduction, change: float) -> float | None:
-    """How much warmer an oil would be that changes the logarithm of the torque so much; None beyond 60 K."""
+    """Rise of the oil temperature that changes the logarithm of the torque so much; None beyond 60 K."""
     steps = np.linspace(-KELVIN, KELVIN, _POINTS)
     return _crossing(steps, _at_reference(subject, reduction, {}, steps), change)
 
@@ -272,7 +272,7 @@ def _preload(made: Condition) -> Record:
 
 
 def span_of(made: Condition) -> tuple[str, float]:
-    """What a trend is given for, and how much time or how many tests that is: years, 1000 h or ten tests."""
+    """Unit that a trend is given for, and how much time or how many tests that is: years, 1000 h or ten tests."""
     if made.per == "test":
         return OF_TESTS
     whole = made.states[-1].time - made.states[0].time
@@ -320,7 +320,7 @@ def _of_part(name: str, part: Part) -> str:
 
 
 def _instead(made: Condition, reduction: Reduction, subject: Configuration, change: float) -> list[Record]:
-    """What would explain the last torque, had the preload stayed."""
+    """Other explanations of the last torque, had the preload stayed."""
     records: list[Record] = []
     needed = _warmer(subject, reduction, change)
     limit = LOGGED_TEMPERATURE if made.states[-1].temperature is not None else UNKNOWN_TEMPERATURE

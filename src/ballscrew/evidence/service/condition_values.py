@@ -71,7 +71,7 @@ class Reduction:
     screw_speed: float
 
     def temperature_deviation(self, means: Means, graded: bool) -> Vector:
-        """By test, what is not known of its temperature, as a standard deviation of the logarithm of the torque."""
+        """Uncertainty of the temperature, by test, as a standard deviation of the logarithm of the torque."""
         known = means.logged & graded
         return np.abs(self.per_kelvin) * np.where(known, LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE) / NORMAL_95
 
@@ -374,7 +374,7 @@ class State:
 
     @property
     def preload_lost(self) -> bool:
-        """Whether the interval of the preload lies below that of the first tests."""
+        """True where the interval of the preload lies below that of the first tests."""
         return self.preload_high < 1
 
 
@@ -430,7 +430,7 @@ class Condition:
 
     @property
     def alarm_direction(self) -> Literal["fall", "rise"] | None:
-        """Whether the torque falls or rises where there is an alarm."""
+        """Direction of the torque, fall or rise, where there is an alarm."""
         return None if self.alarm is None else "fall" if self.chart.falls else "rise"
 
     @property

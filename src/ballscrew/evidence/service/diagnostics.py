@@ -43,7 +43,7 @@ class Mixture(NamedTuple):
 
     @property
     def told(self) -> bool:
-        """Whether it has a distribution."""
+        """True where it has a distribution."""
         return bool(np.isfinite(self.variance).all() and np.isfinite(self.weights).all())
 
     @property
@@ -140,7 +140,7 @@ class TemperatureTrend(NamedTuple):
 
     @property
     def told(self) -> bool:
-        """Whether it is clear, by :data:`CHANCE`."""
+        """True where it is clear, by :data:`CHANCE`."""
         return self.chance < CHANCE
 
     def text(self, per_kelvin: float) -> str:

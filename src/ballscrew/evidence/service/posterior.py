@@ -153,7 +153,7 @@ class Groups(NamedTuple):
 
 
 class Conditional(NamedTuple):
-    """By sample, the preload that a log asks for: logarithm over that of the first fit, variance, and the weight."""
+    """Preload that a log asks for, by sample: logarithm over that of the first fit, variance, and the weight."""
 
     mean: Vector
     variance: Vector
@@ -166,7 +166,7 @@ class Conditional(NamedTuple):
 def conditional(
     groups: Groups, subject: Configuration, preload: float, values: Mapping[str, Vector], warmer: Vector
 ) -> Conditional:
-    """What the means of a log say of its preload, for samples of the numbers of the model and of the temperature."""
+    """Preload that the means of a log ask for, for samples of the numbers of the model and of the temperature."""
     from scipy.interpolate import CubicSpline  # slow to import: for those only who fit
 
     size, count = warmer.size, groups.friction.size
@@ -215,7 +215,7 @@ class Posterior:
 
     @property
     def effective_samples(self) -> float:
-        """As many samples of even weight tell as much."""
+        """Number of samples of even weight that tell as much."""
         return float(1 / np.sum(self.weights**2))
 
     def number_at_best(self) -> dict[str, float]:
@@ -223,7 +223,7 @@ class Posterior:
         return {name: float(drawn[self.best]) for name, drawn in self.values.items()}
 
     def shares(self, logarithm: Vector, variance: Vector) -> dict[str, float]:
-        """By unknown, the share of the variance of a quantity that goes along with it."""
+        """Share of the variance of a quantity that goes along with each unknown."""
         off = self.scores - self.weights @ self.scores
         centred = logarithm - self.weights @ logarithm
         total = float(self.weights @ (centred**2 + variance))
@@ -235,7 +235,7 @@ class Posterior:
         }
 
     def mean_scores(self) -> dict[str, float]:
-        """By unknown, its mean in standard deviations from what is known of it."""
+        """Mean of each unknown, in standard deviations from what is known of it."""
         return dict(zip(self.names, (self.weights @ self.scores).tolist(), strict=True))
 
 
@@ -330,7 +330,7 @@ def _shares(scores: Vector) -> Vector:
 
 
 def _mixing(names: Sequence[str], joint: JointNormal | None) -> Vector:
-    """From independent standard normal numbers to those that a calibration left correlated."""
+    """Matrix from independent standard normal numbers to those that a calibration left correlated."""
     correlation = np.eye(len(names))
     if joint is not None:
         kept = [i for i, name in enumerate(joint.names) if name in names]

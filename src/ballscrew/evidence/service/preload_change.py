@@ -181,7 +181,7 @@ def preload_change(
 
 
 def _shares(result: Posterior, logarithm: Mixture, nominal: PreloadEstimate | None) -> dict[str, float]:
-    """What the variance of the ratio goes along with."""
+    """Shares of the variance of the ratio, by cause."""
     shares = result.shares(logarithm.mean, logarithm.variance)
     if nominal is not None and logarithm.told:
         shares["nominal preload"] = float(nominal.logarithm.variance[0] / logarithm.total_variance)

@@ -374,7 +374,7 @@ class Entry:
 
     @property
     def used_for(self) -> list[str]:
-        """What was chosen with these rows in sight: of the model, and the calibrations that were fitted to them."""
+        """Choices made with these rows in sight: of the model, and the calibrations that were fitted to them."""
         return [*self.data.used_for, *(f"calibration {name}, fitted" for name in self.data.calibrations)]
 
     @property

@@ -98,7 +98,7 @@ def _example_point(job: HandOver) -> tuple[float, float]:
 
 
 def _example_at_fault(job: HandOver) -> str:
-    """Why ``valid`` is 0 in the example, where it is."""
+    """Reason why ``valid`` is 0 in the example, where it is."""
     load, speed = _example_point(job)
     with np.errstate(all="ignore"):
         friction = job.subject.at({"axial_load": np.array([load]), "screw_speed": np.array([speed])})

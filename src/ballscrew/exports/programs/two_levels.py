@@ -79,7 +79,7 @@ class TwoLevels:
 
     @property
     def tables(self) -> list[tuple[bool, int | str]]:
-        """Of each input of a ball, whether it is an array over the balls, and which; or else the output at points."""
+        """Source of each input of a ball: True for an array over the balls, and which; or else the output at points."""
         first = len(self.inputs) + len(OF_LOADS)
         return [(True, int(name) - first) if kind == "points" else (False, name) for kind, name in self.cut.tables]
 

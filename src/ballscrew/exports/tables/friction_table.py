@@ -366,7 +366,7 @@ def _ends(size: int, kept: Sequence[int]) -> list[int]:
 
 
 def _walk(chords: Floats, tolerance: float, ends: Sequence[int]) -> list[int]:
-    """From each node to the farthest one that a straight line reaches within the tolerance."""
+    """Nodes, each the farthest that a straight line from the one before reaches within the tolerance."""
     nodes = [ends[0]]
     for end in ends[1:]:
         while nodes[-1] < end:

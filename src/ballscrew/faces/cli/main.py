@@ -153,7 +153,7 @@ def options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
     ] = False,
 ) -> None:
-    """What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term."""
+    """Friction of a ball screw: torque, efficiency, back-driving, and why, term by term."""
 
 
 @functools.cache

@@ -211,7 +211,7 @@ def _polynomial(x: Any, coefficients: Sequence[float]) -> Any:
 def contents_of_bands(
     banding: Banding, structures: Sequence[tuple[str, str]], calibrated: Mapping[tuple[str, str], KeptModule]
 ) -> dict[str, Any]:
-    """What the page knows of bands; structures of which some uncertain number is no input have none.
+    """Data that the page has of bands; structures of which some uncertain number is no input have none.
 
     ``calibrated`` are the modules of those whose makers ask for other torques.
     """
@@ -347,7 +347,7 @@ _NEAREST = 1.5
 
 
 def dimensions_of(table: Sequence[Mapping[str, Any]]) -> range:
-    """How many inputs of a table may be uncertain at once: fewer where some are at the bound that switches them off."""
+    """Numbers of inputs of a table that may be uncertain at once: fewer where one is at the bound switching it off."""
     most = max(sum(row.get("oil") in (None, oil) for row in table) for oil in ("grade", "viscosity"))
     return range(max(1, most - sum(row.get("off", False) for row in table)), most + 1)
 

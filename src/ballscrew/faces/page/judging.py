@@ -193,7 +193,7 @@ def section(
 
 
 def contents_of_judging(judging: Judging) -> dict[str, Any]:
-    """What the page knows of the module: functions, tables, and where their values are from."""
+    """Data that the page has of the module: functions, tables, and where their values are from."""
     limits = fields_of(Limits)
     tables = documents()
     return {
@@ -230,7 +230,7 @@ def contents_of_judging(judging: Judging) -> dict[str, Any]:
 
 
 def of_start(name: str) -> dict[str, Any]:
-    """What is listed of the screw of a start, the limit of its DN value, and the rule of its maker."""
+    """Listed data of the screw of a start, the limit of its DN value, and the rule of its maker."""
     row = catalogue().get(name) if name != kinds.PAPER else None
     limit = speed_limit_of(row) or GENERAL
     rule = None if row is None else rule_of(row.make)

@@ -1,4 +1,4 @@
-"""What the page can show: kinds of nuts and models, and the screws to start from, as cases.
+"""Subjects that the page can show: kinds of nuts and models, and the screws to start from, as cases.
 
 A structure is a model and a kind of nut; all numbers are inputs of its module (:mod:`ballscrew.faces.page.modules`), so
 that every screw with such a nut is computed by the same one.
@@ -34,7 +34,7 @@ class Kind(NamedTuple):
 
     @property
     def is_preloaded(self) -> bool:
-        """Whether such a nut has a preload."""
+        """True where such a nut has a preload."""
         return self.nut in EXAMPLE_PRELOADS
 
 
@@ -98,7 +98,7 @@ def case_of(start: str, model: str, kind: str) -> Case:
 
 
 def subject_of(case: Case) -> Configuration:
-    """What is evaluated in a case, with an oil that is its numbers alone."""
+    """Configuration that is evaluated in a case, with an oil that is its numbers alone."""
     return numbers_alone(Configuration(case.model, case.screw, case.lubricant))
 
 

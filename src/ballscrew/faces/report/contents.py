@@ -78,7 +78,7 @@ class Heading(NamedTuple):
 
     @property
     def lines(self) -> list[str]:
-        """What stands below the title."""
+        """Lines below the title."""
         said = [f"Project: {self.project}"] * bool(self.project) + [f"Date: {self.date}"] * bool(self.date)
         return [" · ".join(said)] if said else []
 
@@ -249,7 +249,7 @@ def _bands(cycle: DutyReport) -> DutyBandReport | None:
 
 
 def _has_stiffness(case: Case) -> bool:
-    """Whether a case tells the ends of its shaft and how the nut travels between them."""
+    """Test whether a case tells the ends of its shaft and how the nut travels between them."""
     return case.installation is not None and case.axis is not None and case.motion is not None
 
 
@@ -345,7 +345,7 @@ def _model(case: Case) -> Sequence[Block]:
 
 
 def origins(case: Case, inputs: list[Table]) -> Paragraph:
-    """Where the values of the inputs are from."""
+    """Sources of the values of the inputs."""
     return Paragraph(f"Where values are from: {input_tables.sources_in_words(case, inputs)}")
 
 

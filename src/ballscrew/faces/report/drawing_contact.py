@@ -238,7 +238,7 @@ class Place(NamedTuple):
 
     @classmethod
     def of(cls, contact: DrawnContact) -> Place:
-        """As large as there is room for."""
+        """Choose the place as large as there is room for."""
         short = SMALLEST_RATIO / contact.axes_ratio
         stretched = 1.0 if short <= 1 else math.ceil(2 * short) / 2
         ratio = stretched * contact.axes_ratio

@@ -10,7 +10,7 @@ from ballscrew.questions.shared.options import Option
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class ReportOptions:
-    """What is asked of a report: samples of its band, and what stands below its title."""
+    """Options of a report: samples of its band, and what stands below its title."""
 
     samples: Annotated[int | None, Option("Of the band: 16384; where balls differ 1024.", metavar="N")] = None
     project: Annotated[str, Option("Stands below the title.", metavar="NAME")] = ""

@@ -152,7 +152,7 @@ def _ratios(table: Sequence[SummaryRow]) -> Figure:
 
 
 def _coverage(entries: Sequence[Entry]) -> Table:
-    """How often the band of the model holds the middle of a statement, and how wide it is, by what was fitted."""
+    """Share of statements whose middle the band of the model holds, and its width, by what was fitted."""
     rows: list[list[str]] = []
     for entry in entries:
         split = fitted_rows(entry.data.name)

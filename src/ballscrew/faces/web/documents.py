@@ -84,7 +84,7 @@ _BESIDE = 500
 
 
 class Question(NamedTuple):
-    """What is asked for: an address with its query, and the digest of a body."""
+    """Request: an address with its query, and the digest of a body."""
 
     address: str
     digest: bytes

@@ -58,7 +58,7 @@ async def state(
     wait: Annotated[float, Query(ge=0, le=LONGEST_WAIT, description="seconds to wait for news at most")] = 0.0,
     rows: Annotated[int, Query(ge=0, description="rows that are known already")] = 0,
 ) -> Response:
-    """How far a job is, and the rows of its answer that it has found by now."""
+    """Progress of a job, and the rows of its answer that it has found by now."""
     jobs = _jobs_of(request)
     job = jobs.named(id)
     if len(job.rows) <= rows:

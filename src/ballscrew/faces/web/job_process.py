@@ -56,7 +56,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Progress:
-    """How much is done of how much, as the work itself counts it."""
+    """Amount done, and of how much, as the work itself counts it."""
 
     finished: int
     total: int

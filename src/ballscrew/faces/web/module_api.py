@@ -51,7 +51,7 @@ class InputPlace(Closed):
 
 
 class CurveAxis(Closed):
-    """How the values of an axis follow from the operating point: to twice its value, from a share of that."""
+    """Rule by which the values of an axis follow from the operating point: to twice its value, from a share of that."""
 
     share: float = Field(description="the far end over the first value")
     points: int
@@ -193,7 +193,7 @@ def _place(name: str, quantity: Quantity) -> dict[str, Any]:
 
 
 def _at(tables: Mapping[str, Any], path: str) -> Any:
-    """What stands at a path in tables; None where nothing does."""
+    """Value at a path in tables; None where nothing does."""
     result: Any = tables
     for key in path.split("."):
         result = result.get(key) if isinstance(result, dict) else None

@@ -153,7 +153,7 @@ def text_of(where: str, text: str, heading: Heading) -> str | Fault:
 
 
 def _unit_behind(text: str) -> str:
-    """What stands behind the digits of a number."""
+    """Text behind the digits of a number."""
     return text.lstrip("".join(_DIGITS)).strip() if text.startswith(_DIGITS) else ""
 
 

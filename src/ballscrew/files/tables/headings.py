@@ -128,7 +128,7 @@ class Heading:
 
     @property
     def quantity(self) -> Quantity | None:
-        """What a cell with a plain number is of."""
+        """Quantity of a cell with a plain number."""
         return self.column.share if self.unit == PERCENT else self.column.quantity
 
 
@@ -140,7 +140,7 @@ def bare(name: str) -> str:
 
 
 def known_heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | None:
-    """As :func:`heading_of`, for columns whose names have letters: a cell without any, a number, is not looked at."""
+    """Heading as by :func:`heading_of`, for columns whose names have letters: a number is not looked at."""
     return heading_of(cell, place, columns) if isinstance(cell, str) and any(map(str.isalpha, cell)) else None
 
 

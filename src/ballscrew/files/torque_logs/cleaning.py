@@ -176,7 +176,7 @@ def without_repeats(log: Log) -> Log:
 
 
 def in_order(log: Log) -> Log:
-    """In the order of time, with its motion; a log without time is left as it is."""
+    """Sort a log by time, with its motion; a log without time is left as it is."""
     if log.time is None:
         return log.with_notes("no time: rows under acceleration cannot be told from the others, and all stay")
     if log.motion is not None or not len(log):
@@ -266,7 +266,7 @@ def _quarter(values: Floats) -> float:
 
 
 def thinned(log: Log, most: int) -> Log:
-    """At most so many rows, evenly at random and always the same ones."""
+    """Keep at most so many rows, evenly at random and always the same ones."""
     if len(log) <= most or log.keys is None:
         return log
     keep = np.sort(np.argpartition(log.keys, most)[:most])

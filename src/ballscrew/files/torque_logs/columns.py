@@ -185,7 +185,7 @@ class Layout:
 
 
 def temperatures_among(unused: Sequence[str]) -> list[str]:
-    """Of the columns that are not used, as :class:`Layout` lists them, those in a unit of temperature."""
+    """Columns in a unit of temperature among those that are not used, as :class:`Layout` lists them."""
     column = _BY_NAME[TEMPERATURE]
     parts = [(heading, BRACKETS.fullmatch(heading.strip('"'))) for heading in unused]
     return [heading for heading, each in parts if each is not None and fits(each["unit"], column)]
@@ -329,7 +329,7 @@ def renamed(
 def _has_no_load(
     cells: Record, units_below: Record | None, headings: Sequence[Heading], constants: Mapping[str, float]
 ) -> bool:
-    """Whether a log has no column of the load, nor any other in a unit of force: it is one of a nut without load."""
+    """Test whether a log has no column of the load nor another in a unit of force: it is one of a nut without load."""
     if LOAD in constants or not headings or any(heading.column.name == LOAD for heading in headings):
         return False
     taken = {heading.place for heading in headings}
@@ -390,7 +390,7 @@ def _wanted(given: Sequence[_GivenColumn], kind: LogColumns) -> list[Column]:
 def _chosen(
     columns: Sequence[Column], headings: Sequence[Heading], constants: Mapping[str, float], kind: LogColumns
 ) -> tuple[list[Column], list[Heading]]:
-    """Of the columns that stand for each other the one that says most; columns needed no more are not required."""
+    """Choose, of columns that stand for each other, the one that says most; columns needed no more are not required."""
     names = {heading.column.name for heading in headings}
     dropped: set[str] = {*constants}
     for family in kind.families:

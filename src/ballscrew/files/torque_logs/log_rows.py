@@ -111,7 +111,7 @@ class LogRows:
 
     @property
     def usage(self) -> str:
-        """How many rows are used, and why the others are not: ``2522 of 3108 rows used; left out: 407, …``."""
+        """Number of rows that are used, and why the others are not: ``2522 of 3108 rows used; left out: 407, …``."""
         said = f"{len(self)} of {self.rows} rows used"
         reasons = [f"{count} rows, {reason}" for reason, count in self.left_out.items()]
         return f"{said}; left out: {'; '.join(reasons)}" if reasons else said

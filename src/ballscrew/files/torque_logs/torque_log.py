@@ -99,7 +99,7 @@ class _Named:
 
     @property
     def without_load(self) -> bool:
-        """Whether there was no load; a column of another name may be that of the load."""
+        """True where there was no load; a column of another name may be that of the load."""
         return "axial_load" not in self.known and not self.others
 
     @property

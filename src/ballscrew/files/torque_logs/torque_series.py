@@ -263,7 +263,7 @@ def _refuse_log(path: Path) -> None:
 
 
 def _times(table: tables.Table, rows: Sequence[tables.Row]) -> tuple[str, Any, Sequence[str]]:
-    """What times count, the times and how they are written."""
+    """Unit of times, the times and how they are written."""
     name = next((one for one in ("date", "time", "number") if one in table.headings), None)
     if name is None:
         return "test", None, ()

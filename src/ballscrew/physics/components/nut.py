@@ -217,7 +217,7 @@ class Scatter(ByValue):
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class NutParts(ByValue):
-    """What every nut may have besides its balls and its preload.
+    """Parts that every nut may have besides its balls and its preload.
 
     Without bodies, screw and nut are rigid between the balls. Losses are laws of torque besides the balls by name, as
     ``{"seals": Seals(seal_torque=0.2)}`` (:mod:`ballscrew.physics.laws.nut_losses`).

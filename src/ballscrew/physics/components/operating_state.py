@@ -105,7 +105,7 @@ def settled(values: Array) -> Array:
 
 
 class ElementFriction(Protocol):
-    """What an axis needs to know of the friction of an element at an operating state."""
+    """Friction that an axis needs to know of an element at an operating state."""
 
     @property
     def friction_effort(self) -> Array:

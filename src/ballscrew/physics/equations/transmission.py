@@ -1,4 +1,4 @@
-"""From axial load to contact load, torque and efficiency."""
+"""Conversion of axial load to contact load, torque and efficiency."""
 
 from __future__ import annotations
 

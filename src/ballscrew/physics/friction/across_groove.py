@@ -39,7 +39,7 @@ NEWTON_STEPS = 6
 
 
 class Friction(Protocol):
-    """What a preload in motion needs of a friction model."""
+    """Friction model as a preload in motion needs it."""
 
     def under(self, loads: BallLoads | None, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> Any:
         """Friction under loads of the balls that are known."""
@@ -101,7 +101,7 @@ def preload_off_line(screw: BallScrew, lateral_friction_angle: Angle) -> Force:
 
 
 def growth_of(screw: BallScrew, approach: Length, lateral_friction_angle: Angle) -> Length:
-    """What the balls of ``screw`` that an ``approach`` presses press more off the line, at centres that stay."""
+    """Further approach off the line of the balls of ``screw`` that an ``approach`` presses, at centres that stay."""
     A = rigidity.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     s, d_w = A + approach, screw.ball_diameter
     conformities = screw.screw_conformity, screw.nut_conformity
@@ -131,7 +131,7 @@ def _approach(screw: BallScrew, load: Force) -> Length:
 
 
 def _of_elastic_bodies(screw: BallScrew, beta: Angle) -> Force:
-    """As a half by itself: a single nut whose screw and nut are held on one side, with the preload for a load.
+    """Force of a half by itself: a single nut whose screw and nut are held on one side, with the preload for a load.
 
     Its first ball moves by what its springs and bodies give way; balls that are larger touch earlier.
     """

@@ -24,7 +24,7 @@ LAND, LAND_OF_CONTACT = 0.35, 0.6
 
 
 def land_height(ball_radius: Length, steepest: Angle) -> Length:
-    """How far from the middle of the ball its grooves end; ``steepest`` is the largest contact angle of its flanks."""
+    """Distance of the grooves' ends from the ball's middle; ``steepest`` is the largest contact angle of its flanks."""
     xp = namespace(ball_radius, steepest)
     return ball_radius * xp.minimum(LAND, LAND_OF_CONTACT * xp.cos(steepest))
 
@@ -60,7 +60,7 @@ class Arc(NamedTuple):
 
     @property
     def bottom(self) -> Place:
-        """Where the two flanks of a groove meet that are each other's mirror image."""
+        """Point where the two flanks of a groove meet that are each other's mirror image."""
         x, y = self.middle
         xp = namespace(self.radius, x)
         return 0.0, y + self.outward * xp.sqrt(self.radius**2 - x**2)
@@ -142,7 +142,7 @@ def _larger(ball: MostLoadedBall) -> Force:
 
 
 def _at(values: Any, place: Any) -> Any:
-    """What each ball has, at a place of its own for each point."""
+    """Values of each ball, at a place of its own for each point."""
     if not isinstance(place, np.ndarray | np.integer):  # on a tape
         return np.take_along_axis(values, place, axis=-1)
     return np.take_along_axis(np.asarray(values), np.asarray(place)[..., None], axis=-1)[..., 0]

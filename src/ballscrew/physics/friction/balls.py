@@ -36,7 +36,7 @@ MECHANISMS: Mapping[str, str] = {
 
 
 class BallModel(Protocol):
-    """What the friction of a ball needs of a model: its laws, to be called, and two numbers."""
+    """Model as the friction of a ball needs it: its laws, to be called, and two numbers."""
 
     @property
     def laws(self) -> Any:

@@ -1,4 +1,4 @@
-"""From rest: the torque at which a ball screw breaks away, and how far it gives way before."""
+"""Breakaway from rest: the torque at which a ball screw breaks away, and how far it gives way before."""
 
 from __future__ import annotations
 

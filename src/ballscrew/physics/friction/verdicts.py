@@ -97,7 +97,7 @@ _OF_QUADRANT = {"quadrant": _WORDS_OF_QUADRANT, "torque": Shown("torque", _DRIVE
 
 
 def _held(of: Mapping[str, Any], place: str = "") -> tuple[Any, Mask, Mapping[str, Any]]:
-    """What is to be said of a load that is held: whether there is one, whether it drives, and its numbers."""
+    """Masks and numbers of a load that is held: whether there is one, whether it drives, and its numbers."""
     torque, valid = of[f"{place}holding_torque"], of[f"{place}valid"]
     xp = namespace(torque, valid)
     values = {"value": torque, "torque": abs(torque), "invalid": xp.logical_not(valid)}

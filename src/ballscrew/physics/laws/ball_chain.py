@@ -132,7 +132,7 @@ class CircuitForceLaw(Protocol):
 
 
 def force_between_balls(named: Any, law: Any, imposed: Force, contact_load: Force, ball: BallInCircuit) -> Force:
-    """What a law gives for a loaded ball: the ``law`` to be called, with the traits of the one that is ``named``.
+    """Force that a law gives for a loaded ball: the ``law`` to be called, with the traits of the one that is ``named``.
 
     A law that reads the ball, which its traits say, takes it as a third argument.
     """

@@ -1,4 +1,4 @@
-"""What the law of each slot takes and returns: a protocol for each slot of a friction model.
+"""Parameters and results of the law of each slot: a protocol for each slot of a friction model.
 
 Laws from outside: what they return is checked, and what they raise names them.
 

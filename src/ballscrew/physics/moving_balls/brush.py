@@ -135,7 +135,7 @@ class Parts(NamedTuple):
 
 
 class Step(NamedTuple):
-    """What a step of the screw has come to."""
+    """State that a step of the screw has come to."""
 
     torque: Parts
     lateral_force: Force

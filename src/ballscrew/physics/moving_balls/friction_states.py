@@ -134,7 +134,7 @@ class WindingUp:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class FitError:
-    """How far a fitted model is from the curve, as shares of the steady torque."""
+    """Distance of a fitted model from the curve, as shares of the steady torque."""
 
     largest: Annotated[Ratio, Info("", "largest error over the whole curve, share of the steady torque")]
     rms: Annotated[

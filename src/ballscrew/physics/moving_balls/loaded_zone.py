@@ -48,7 +48,7 @@ STEPS, CARRIED = 50, 1e-13
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Groove:
-    """Where a groove lies off its nominal helix, once a turn and in a few harmonics of that."""
+    """Deviation of a groove from its nominal helix, once a turn and in a few harmonics of that."""
 
     #: Factors of cosine and sine of each harmonic, m: along the axis, and outwards. Shape [2, 2, harmonics].
     harmonics: Field
@@ -69,7 +69,7 @@ class Groove:
 
 
 class Creep(NamedTuple):
-    """What the contacts of a ball do against a speed that is not their own, at some loads, ascending."""
+    """Response of the contacts of a ball to a speed that is not their own, at some loads, ascending."""
 
     load: Field
     #: Force over the load, for each unit by which the speed deviates.
@@ -233,7 +233,7 @@ def creep(
     *,
     four_contacts: bool = False,
 ) -> Creep:
-    """What the contacts of a ball do against a push along its path, by the slip law of the model.
+    """Response of the contacts of a ball to a push along its path, by the slip law of the model.
 
     ``contact_load`` is one load or some, ascending, on one pair of flanks or, with ``four_contacts``, half of it on
     each of two; the balls of ``screw`` have its contact angle.

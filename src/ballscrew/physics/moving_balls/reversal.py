@@ -219,7 +219,7 @@ class _Ball(NamedTuple):
 
 
 class _Start(NamedTuple):
-    """What a reversal sets out from: angles of the screw to where contacts and grooves settle, and to its end."""
+    """Start of a reversal: angles of the screw to where contacts and grooves settle, and to its end."""
 
     steady: FrictionResult
     balls: list[_Ball]

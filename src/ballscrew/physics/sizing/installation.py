@@ -31,7 +31,7 @@ class Ends(enum.Enum):
 
     @property
     def words(self) -> str:
-        """As it is said, ``fixed–supported``."""
+        """Name as it is said, ``fixed–supported``."""
         return self.name.lower().replace("_", "–")
 
 

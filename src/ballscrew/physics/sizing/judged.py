@@ -47,7 +47,7 @@ def judged(values: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
 
 
 def outputs(result: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """What :func:`judged` returns under one name each, ``check.buckling:value``, as outputs of a recording."""
+    """Results of :func:`judged` under one name each, ``check.buckling:value``, as outputs of a recording."""
     return {f"{row}:{name}": value for row, of_row in result.items() for name, value in of_row.items()}
 
 
@@ -119,5 +119,5 @@ def derived(
 
 
 def _or(listed: Any, computed: Any) -> Any:
-    """What is listed, else what is computed."""
+    """Return what is listed, else what is computed."""
     return where(is_nan(listed), computed, listed)

@@ -110,7 +110,7 @@ class Estimate:
 
     @property
     def quantity(self) -> Quantity:
-        """What it is, with its unit."""
+        """Quantity of this name, with its unit."""
         return QUANTITIES[self.name]
 
 
@@ -443,7 +443,7 @@ def with_table_balls(rows: Sequence[CatalogueRow]) -> list[CatalogueRow]:
 
 
 def _groove(row: CatalogueRow) -> tuple[Any, ...]:
-    """What rows of one groove have in common: make, diameter, lead, pitch circle and starts."""
+    """Key that rows of one groove have in common: make, diameter, lead, pitch circle and starts."""
     sizes = (row.nominal_diameter, row.lead, row.ball_circle, row.starts)
     return row.make, *(round(float(size), 6) for size in sizes)
 
@@ -465,7 +465,7 @@ def _balls_of_grooves(grooves: Sequence[Sequence[CatalogueRow]]) -> Sequence[Len
 
 
 def _costs(rows: Sequence[CatalogueRow], *, by_root: bool) -> _Numbers:
-    """What each ball costs the rows of one groove, by ball, idle turns and factor; infinite for one that cannot be."""
+    """Costs of each ball for rows of one groove, by ball, idle turns and factor; infinite for one that cannot be."""
     row = rows[0]
     low, high = (share * row.nominal_diameter for share in BALLS_PER_DIAMETER)
     may_be = (low <= BALLS) & (min(high, _OF_PITCH * row.lead / row.starts) >= BALLS)

@@ -102,7 +102,7 @@ SMALLEST_SHARE = 0.002
 
 
 class Listed(Rated, Protocol):
-    """What a row lists of its nut."""
+    """Values that a row lists of its nut."""
 
     @property
     def nut(self) -> str: ...

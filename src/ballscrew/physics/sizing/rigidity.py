@@ -71,7 +71,7 @@ class AxialRigidity:
 
 
 class _Sizes(NamedTuple):
-    """What the widening depends on besides the screw."""
+    """Sizes that the widening depends on besides the screw."""
 
     nut_outer_diameter: Length
     assumed: Sequence[str]
@@ -270,7 +270,7 @@ def _outer_diameter(screw: BallScrew, nut: Nut, given: Length | None, nominal: L
 
 
 def _numbers(screw: BallScrew) -> tuple[Any, ...]:
-    """What has to be one number of a screw and its nut."""
+    """Values that have to be one number of a screw and its nut."""
     nut = screw.nut
     given = (getattr(nut, "preload", None), getattr(nut, "oversize", None))
     whole = (screw.loaded_balls, screw.lead, screw.contact_angle, screw.ball_diameter, screw.pitch_circle_diameter)

@@ -40,7 +40,7 @@ TILE = 128
 
 
 class CarriedLoads(NamedTuple):
-    """Of each ball its loads and contact angles on both flanks, and its slopes; sums of the axial forces.
+    """Loads and contact angles of each ball on both flanks, and its slopes; sums of the axial forces.
 
     Slopes of the radial push are left out where nothing swells.
     """

@@ -85,7 +85,7 @@ class NutPoint(NamedTuple):
 
     @property
     def direction(self) -> Field:
-        """Which way the load presses: one forwards, minus one backwards."""
+        """Direction in which the load presses: one forwards, minus one backwards."""
         return np.where(self.load < 0, -1.0, 1.0)
 
     @property
@@ -242,7 +242,7 @@ def _with_preload(case: NutCase, point: NutPoint) -> NutPoint:
 
 
 def _oversize(case: NutCase, point: NutPoint) -> Length:
-    """What balls on both flanks are too big by for their grooves without load."""
+    """Excess size of balls on both flanks over that of their grooves without load."""
     if not case.swells:
         return point.approach(point.preload)
     return excess_at_rest(point.preload, point.radial_stiffness, _plain_springs(case, point, ()), point.loaded_balls)
@@ -387,7 +387,7 @@ def elastic_lift_off_load(case: NutCase, *numbers: Field) -> tuple[Field]:
 
 
 def _largest_overlap(point: NutPoint, springs: BallSprings, displacement: Field) -> Length:
-    """How far the flanks that the load relieves are beyond where they just touch, at the ball that is pressed most."""
+    """Distance of the flanks that the load relieves beyond where they just touch, at the ball that is pressed most."""
     overlaps = [
         np.where(
             each.facing == -point.direction,

@@ -135,7 +135,7 @@ class BallLoads:
 
     @lazy
     def balls(self) -> Any:
-        """How many balls each entry of the ball axis stands for."""
+        """Number of balls that each entry of the ball axis stands for."""
         return self._by_ball("balls")
 
     def at(self, places: Any) -> BallLoads:
@@ -263,7 +263,7 @@ def _case(
     constant_angle: bool,
     compiled: bool,
 ) -> NutCase:
-    """What all operating points have in common."""
+    """Values that all operating points have in common."""
     balls = int(screw.carrying_balls)
     return NutCase(
         balls=balls,
@@ -445,7 +445,7 @@ def radial_stiffness(screw: BallScrew, bodies: Bodies) -> Stiffness:
 
 
 class ElasticNutNumbers(NamedTuple):
-    """What the loads of balls between elastic bodies depend on besides load and preload, SI.
+    """Numbers that the loads of balls between elastic bodies depend on besides load and preload, SI.
 
     The order is that of the structure in ``data/exports/ballscrew_loads.h``, behind its whole numbers.
     """

@@ -185,7 +185,7 @@ class Groove(NamedTuple):
 
 
 class _Bracing(NamedTuple):
-    """How the preload holds both flank pairs at rest, and where the load lifts one of them off."""
+    """Bracing of both flank pairs by the preload at rest, and where the load lifts one of them off."""
 
     #: Displacement of both flank pairs by the preload, and what it takes of it until one lets go.
     offset: Ratio

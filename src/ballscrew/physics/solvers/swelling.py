@@ -178,7 +178,7 @@ def excess_at_rest(
     springs: BallSprings,
     loaded_balls: Field,
 ) -> Field:
-    """What balls on both flanks of both bodies are too big by, so that each flank carries the preload without load."""
+    """Excess size of balls on both flanks of both bodies, such that each flank carries the preload without load."""
     A, alpha, c_phi, K = springs.centre_distance, springs.contact_angle, springs.lead_cosine, springs.load_deflection
     across, along = A * np.cos(alpha), A * np.sin(alpha)
     # both flanks push apart: 2 N = 2 F / (tan α' cos φ), and tan α' = along / (across - u); linear in u

@@ -12,7 +12,7 @@ from ballscrew.questions.shared.question import Question
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class AxisOptions:
-    """What is asked of an axis: places of its nut, m."""
+    """Options of an axis: places of its nut, m."""
 
     at: Annotated[
         Sequence[float],

@@ -75,7 +75,7 @@ SPRINGS = ("nut", "shaft", "bearings", "mount", "torsion")
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class ChainReport:
-    """What gives way between the motor and the table of a case, and what its shaft stands."""
+    """Parts that give way between the motor and the table of a case, and limits of its shaft."""
 
     case: Case
     chain: AxisStiffness
@@ -129,7 +129,7 @@ class ChainReport:
 
     @lazy
     def verdicts(self) -> Sequence[Record]:
-        """Where the chain is softest, and whether speed and load are within what the shaft stands."""
+        """Records of where the chain is softest, and whether speed and load are within what the shaft stands."""
         return [self._softest_record(), self._speed_record(), self._load_record()]
 
     def _softest_record(self) -> Record:

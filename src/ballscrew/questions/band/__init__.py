@@ -10,7 +10,7 @@ from ballscrew.questions.shared.options import Level, OnlyGiven, number_of_sampl
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class BandOptions:
-    """What is asked of a band; None stands for what is usual."""
+    """Options of a band; None stands for what is usual."""
 
     samples: Annotated[int | None, number_of_samples("samples, 16384; where balls differ 1024")] = None
     level: Level = None

@@ -175,7 +175,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
 
 
 def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Record]:
-    """What narrows the band the most where it is known, and how far; empty where nothing does by a tenth."""
+    """Inputs that narrow the band the most where it is known, and how far; empty where nothing does by a tenth."""
     result, both = report.band.narrowing, report.band[_TORQUE].both
     if result is None or not both.low > 0 or not both.high / both.low > 1:
         return []
@@ -199,7 +199,7 @@ def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Recor
 
 
 def _full_bath(report: BandReport) -> list[Record]:
-    """Where the torque of the full bath lies in a band of both tracks, or beside one of the starved track only."""
+    """Place of the torque of the full bath in a band of both tracks, or beside one of the starved track only."""
     high, flooded = report.band[_TORQUE].both.high, report.flooded_torque
     if flooded is None:
         return []
@@ -229,7 +229,7 @@ def _full_bath(report: BandReport) -> list[Record]:
 
 
 def _rules(case: Case, report: BandReport) -> list[Record]:
-    """Of each rule of a maker whether the band of a preloaded nut holds it; only without load, as rules have none."""
+    """Records of whether the band of a preloaded nut holds each maker's rule; only without load, as rules have none."""
     if float(case.operation.axial_load) != 0:
         return []
     low, high = report.band[_TORQUE].both
@@ -249,7 +249,7 @@ def _rules(case: Case, report: BandReport) -> list[Record]:
 
 
 def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
-    """Why the band of inputs and laws ends within that of the inputs, or the case lies outside the laws alone.
+    """Reasons why the band of inputs and laws ends within that of the inputs, or the case lies outside the laws alone.
 
     One line for each, with the number to use. Ends that are written alike count as the same.
     """

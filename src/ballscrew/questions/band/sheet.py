@@ -266,7 +266,7 @@ def _along(report: BandReport, curve: BandCurve) -> Chart:
 
 
 def _bars(report: BandReport) -> Iterator[Bars]:
-    """What makes the band at the operating point: both causes, and each law that could stand in place of another."""
+    """Causes of the band at the operating point: both causes, and each law that could stand in place of another."""
     torque = report.band["screw_torque"]
     if not has_band(report):
         return

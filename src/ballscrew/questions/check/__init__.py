@@ -11,7 +11,7 @@ from ballscrew.questions.shared.options import Option, options_of
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class CheckOptions:
-    """What is asked of checks: fields of the case as texts, in place of its own or of what is usual."""
+    """Options of checks: fields of the case as texts, in place of its own or of what is usual."""
 
     axial_load: Annotated[
         str | None,

@@ -13,7 +13,7 @@ _OWN = Option("Of several designs: each at its own load and speed, not at those 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class CompareOptions:
-    """What is asked of a comparison."""
+    """Options of a comparison."""
 
     self_heating: Annotated[bool, SELF_HEATING] = False
     own: Annotated[bool, _OWN] = False

@@ -13,7 +13,7 @@ STEP = 0.02
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class CompensationOptions:
-    """What is asked of a compensation; lengths in m."""
+    """Options of a compensation; lengths in m."""
 
     hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
     axis: Annotated[str, Option("Name of the axis in the control.", metavar="NAME")] = "X1"

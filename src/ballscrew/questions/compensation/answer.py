@@ -61,7 +61,7 @@ class PositionCompensation(ByValue):
 
     @property
     def missed(self) -> str:
-        """What straight lines between the positions miss of the growth, in words, as far as it is known."""
+        """Growth that straight lines between the positions miss, in words, as far as it is known."""
         cell = f"{1e3 * self.cell:.4g} mm"
         if self.step <= self.cell * (1 + 1e-9):
             return f"the growth is computed in cells of {cell}; what straight lines miss within them is not known"

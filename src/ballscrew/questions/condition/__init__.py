@@ -18,7 +18,7 @@ from ballscrew.questions.shared.question import (
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class ConditionOptions:
-    """What is asked of a condition; numbers in SI."""
+    """Options of a condition; numbers in SI."""
 
     #: That of the case is of another motion.
     speed: Annotated[

@@ -267,7 +267,7 @@ def _tests(condition: Condition) -> str:
 
 
 def _meaning(condition: Condition) -> str:
-    """Where the torques are reduced to, and what the numbers are."""
+    """Operating point that the torques are reduced to, and what the numbers are."""
     speed = units.shown(condition.reference_speed, _SPEED, 3)
     temperature = condition.reference_temperature
     at = f"{units.shown(temperature, TEMPERATURE, 3)} and {speed}" if math.isfinite(temperature) else speed

@@ -11,7 +11,7 @@ from ballscrew.questions.shared.question import Endpoint, Question, Sent
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class DutyOptions:
-    """What is asked of a duty: a band of its torques and energies."""
+    """Options of a duty: a band of its torques and energies."""
 
     band: Annotated[bool, Option("Band of torques and energies, by uncertain inputs.")] = False
     samples: Annotated[int | None, number_of_samples("samples, 1024")] = None

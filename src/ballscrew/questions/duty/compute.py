@@ -139,12 +139,12 @@ class CycleNumbers(Declared):
 
     @part
     def torque_peak(self) -> Annotated[Torque, TORQUE_PEAK]:
-        """By the rule of catalogues where the case asks for it."""
+        """Value by the rule of catalogues where the case asks for it."""
         return self._torques.torque_peak
 
     @part
     def torque_rms(self) -> Annotated[Torque, TORQUE_RMS]:
-        """By the rule of catalogues where the case asks for it."""
+        """Value by the rule of catalogues where the case asks for it."""
         return self._torques.torque_rms
 
     @part
@@ -218,7 +218,7 @@ class CycleNumbers(Declared):
 
     @part
     def life_revolutions(self) -> Annotated[Ratio, Info("L", "basic rating life L10 in revolutions")]:
-        """By the larger mean load alone where the case asks for the rule of catalogues."""
+        """Value by the larger mean load alone where the case asks for the rule of catalogues."""
         life = self.cycle_life
         return life.revolutions_of_the_worse if self.by_rule else life.revolutions
 
@@ -273,7 +273,7 @@ class DutyReport(CycleNumbers):
 
     @part
     def torque_by(self) -> Literal["rule", "mechanics"]:
-        """What the torques above are by: mechanics, or the rule of catalogues where the case asks for it."""
+        """Basis of the torques above: mechanics, or the rule of catalogues where the case asks for it."""
         return "rule" if self.by_rule else "mechanics"
 
     @part
@@ -304,7 +304,7 @@ class DutyReport(CycleNumbers):
     def inertia_by(
         self,
     ) -> Annotated[Mapping[str, float], Unit("kg m^2"), Info("J", "moment of inertia at the motor")]:
-        """Of each part that turns."""
+        """Moment of inertia of each part that turns."""
         return _by_slug(self.axis.inertia_by)
 
     @part
@@ -399,7 +399,7 @@ class DutyReport(CycleNumbers):
 
     @part
     def brake(self) -> Brake:
-        """What the axis does with its motor off."""
+        """Behaviour of the axis with its motor off."""
         motor = self.case.motor
         held = 0.0 if motor is None or motor.holding_torque is None else float(motor.holding_torque)
         return brake_of(self.duty, motor_torque=held)
@@ -423,7 +423,7 @@ class DutyReport(CycleNumbers):
 
     @part
     def phases(self) -> Sequence[PhaseNumbers]:
-        """What each phase of the motion asks of the motor."""
+        """Demands of each phase of the motion on the motor."""
         duty, states = self.duty, self.duty.states
         phases: list[PhaseNumbers] = []
         for number, name in enumerate(states.phases):
@@ -445,7 +445,7 @@ class DutyReport(CycleNumbers):
 
     @part
     def flank_changes(self) -> Sequence[FlankChange]:
-        """Where the load changes its sign; the nut loses its play there, and none where it is preloaded.
+        """Changes of the load's sign; the nut loses its play there, and none where it is preloaded.
 
         What friction winds up in shaft and bearings comes on top: ``ballscrew axis``. In a recorded motion a load below
         a hundredth of the largest is noise.
@@ -475,7 +475,7 @@ class DutyReport(CycleNumbers):
 
     @part
     def smoothing(self) -> Annotated[PositionSmoothing | SpeedSmoothing | None, LEFT_OUT]:
-        """How a recorded motion was smoothed."""
+        """Smoothing of a recorded motion."""
         motion = self.motion
         if not isinstance(motion, Trajectory):
             return None

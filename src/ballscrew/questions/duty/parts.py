@@ -56,7 +56,7 @@ class PhaseNumbers(NamedTuple):
 
 @dataclasses.dataclass(frozen=True)
 class Smoothing:
-    """How a recorded motion was smoothed, and what that does to the RMS torque."""
+    """Smoothing of a recorded motion, and its effect on the RMS torque."""
 
     #: Recorded samples.
     samples: int
@@ -72,14 +72,14 @@ class Smoothing:
 
 @dataclasses.dataclass(frozen=True)
 class PositionSmoothing(Smoothing):
-    """How recorded positions were smoothed, and what that does to the RMS torque."""
+    """Smoothing of recorded positions, and its effect on the RMS torque."""
 
     noise: Length
 
 
 @dataclasses.dataclass(frozen=True)
 class SpeedSmoothing(Smoothing):
-    """How recorded speeds were smoothed, and what that does to the RMS torque."""
+    """Smoothing of recorded speeds, and its effect on the RMS torque."""
 
     noise: Speed
 
@@ -129,7 +129,7 @@ class WorstState(NamedTuple):
 
 
 class MotorCurve(NamedTuple):
-    """What a motor gives, at the corners of its curve."""
+    """Torque that a motor gives, at the corners of its curve."""
 
     #: Speed of the motor.
     speed: Annotated[Sequence[AngularSpeed], FINITE]

@@ -102,7 +102,7 @@ def sheet(report: DutyReport, bands: DutyBandReport | None = None) -> Sheet:
 
 
 def answers(report: DutyReport) -> list[Line]:
-    """What a cycle asks of the motor and costs in life, then brake, motor and checks, a sentence each."""
+    """Demands of a cycle on the motor and its cost in life, then brake, motor and checks, a sentence each."""
     numbers = report.numbers
     peak, rms = (words(Number(numbers[name], _TORQUE)) for name in ("torque_peak", "torque_rms"))
     life = words(Number(numbers["life_time"], NUMBERS["life_time"]))
@@ -112,7 +112,7 @@ def answers(report: DutyReport) -> list[Line]:
 
 
 def _phases(report: DutyReport) -> Table:
-    """What each phase of the motion asks of the motor."""
+    """Demands of each phase of the motion on the motor."""
     known = {name: part.quantity for name, part in parts_of(PhaseNumbers).items() if part.quantity is not None}
     rows: list[list[Cell]] = [
         [phase.name, *(Number(getattr(phase, name), quantity) for name, quantity in known.items())]
@@ -180,7 +180,7 @@ def _origin_of(bands: DutyBandReport | None) -> Iterator[str]:
 
 
 def _smoothing(report: DutyReport) -> Iterator[str]:
-    """How a recorded motion was smoothed."""
+    """Smoothing of a recorded motion."""
     smoothing = report.smoothing
     if smoothing is not None:
         torque = units.shown(smoothing.torque_rms_unsmoothed, _TORQUE)

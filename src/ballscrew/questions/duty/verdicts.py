@@ -51,7 +51,7 @@ def verdicts(report: DutyReport) -> list[Record]:
 
 
 def starved(report: DutyReport) -> list[Record]:
-    """What the motor has to give, and what is lost, as the inlet is given and in a full bath of oil."""
+    """Demands on the motor and losses, as the inlet is given and in a full bath of oil."""
     duty = report.duty
     if not duty.starved:
         return []
@@ -93,7 +93,7 @@ def _not_given(report: DutyReport) -> str:
 
 
 def _flank_changes(report: DutyReport) -> list[Record]:
-    """Where the load changes its flank, and what the position loses there, of a nut without preload."""
+    """Places where the load changes its flank, and what the position loses there, of a nut without preload."""
     changes = report.flank_changes
     if not changes or report.cycle_life.preload:
         return []
@@ -154,7 +154,7 @@ def _brake(report: DutyReport) -> Record:
 
 
 def _way(report: DutyReport) -> str:
-    """What the load does with the axis: lower it, raise it (a counterweight), or move it along."""
+    """Effect of the load on the axis: lowers it, raises it (a counterweight), or moves it along."""
     load, inclination = report.brake.conditions[0].load_torque, report.axis.inclination
     if not inclination:
         return "moves"
@@ -194,7 +194,7 @@ def _checks(report: DutyReport) -> Record:
 
 
 def warnings(report: DutyReport) -> list[Record]:
-    """What is strange about inputs and motion, what fails and how to mend it, and where the model ends."""
+    """Warnings of strange inputs and motion, what fails and how to mend it, and where the model ends."""
     return [
         *report.case.implausible(),
         *inertia_warnings(report),

@@ -14,7 +14,7 @@ DEFAULT_FREE = "boundary_friction_coefficient"
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class FitOptions:
-    """What is asked of a fit; numbers in SI."""
+    """Options of a fit; numbers in SI."""
 
     free: Annotated[
         Sequence[str],
@@ -59,7 +59,7 @@ class FitOptions:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class FitMotionOptions:
-    """What is asked of a fit to a moving log; numbers in SI."""
+    """Options of a fit to a moving log; numbers in SI."""
 
     #: Empty for what is usual.
     free: Annotated[Sequence[str], Option("What to fit, with commas.", metavar="NAMES")] = ()

@@ -223,7 +223,7 @@ def sheet(case: Case, fit: MotionFit) -> Sheet:
 
 
 def _rows(fit: MotionFit) -> Iterator[str]:
-    """What was left out of the log, and the filters that its noise asked for."""
+    """Rows left out of the log, and the filters that its noise asked for."""
     equation, motion = fit.equation, fit.equation.kinematics
     for reason, count in equation.left_out.items():
         yield f"left out: {count} {'row' if count == 1 else 'rows'}, {reason}"
@@ -285,7 +285,7 @@ def _models(fit: MotionFit) -> Table:
 
 
 def _filters(fit: MotionFit) -> Table:
-    """What another filter would have given, by the model of constant and viscous friction."""
+    """Results that another filter would have given, by the model of constant and viscous friction."""
     rows: list[Sequence[Cell]] = []
     own = [("as fitted", fit.linear.values, fit.linear.relative_error)]
     for name, values, error in (*own, *fit.filter_effects):

@@ -99,7 +99,7 @@ def log_and_model(case: Case, report: FitReport) -> str:
 
 
 def _rows(report: FitReport) -> Iterator[str]:
-    """What was left out of the log and why, what is to be said of it, and what its torque was read as."""
+    """Rows left out of the log and why, remarks on it, and what its torque was read as."""
     rows = report.model.rows
     for reason, count in rows.log.left_out.items():
         yield f"left out: {_counted(count)}, {reason}"
@@ -162,7 +162,7 @@ def _is_wandering(name: str) -> bool:
 
 
 def trade_off(model: CalibratedModel) -> str:
-    """What the log determines least, as one sentence: numbers that make up for each other."""
+    """Combination that the log determines least, as one sentence: numbers that make up for each other."""
     least = model.identifiability.combinations[-1]
     values = {name: estimate.value for name, estimate in model.estimates.items()}
     scales = dict(zip(values, model.uncertainty.scale, strict=False))
@@ -211,7 +211,7 @@ def _changed(name: str, share: float) -> str:
 
 
 def _scores(model: CalibratedModel) -> Table:
-    """How far each description of the log is off, with and without physics."""
+    """Error of each description of the log, with and without physics."""
     rows: list[Sequence[Cell]] = [
         [
             score.description,
@@ -271,7 +271,7 @@ def _percent(share: float) -> str:
 
 
 def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[str]:
-    """That the next test asks for more than the log has shown the rig to give, or that no such test was thought of."""
+    """Note that the next test asks for more than the log has shown the rig to give, or that there is no such test."""
     log = model.rows.log
     logged = {"axial_load": log.axial_load, "screw_speed": np.abs(log.screw_speed)}
     ends = {name: (min(float(values.min()), 0.0), max(float(values.max()), 0.0)) for name, values in logged.items()}
@@ -372,7 +372,7 @@ def _errors(model: CalibratedModel) -> Bars:
 
 
 def _places_of_next_test(model: CalibratedModel, test: NextTest, shown: NDArray[np.int64]) -> Block:
-    """What a test at each load and speed would leave of the uncertainty; the best, and where the log was."""
+    """Uncertainty that a test at each load and speed would leave; the best, and where the log was."""
     best = test.best
     chosen = np.ones(test.remaining_volume.size, dtype=bool)
     if "temperature" in test.tests:
@@ -450,7 +450,7 @@ def _numbers(name: str, model: CalibratedModel) -> Iterator[Sequence[Cell]]:
 
 
 def _cells(name: str, report: FitReport) -> Cells:
-    """What was found for a screw from its log: the numbers with their errors and the ends of their 95 % interval."""
+    """Results for a screw from its log: the numbers with their errors and the ends of their 95 % interval."""
     model, result = report.model, results(report)
     values: dict[str, tuple[Any, Quantity | None]] = {
         "name": (name, None),

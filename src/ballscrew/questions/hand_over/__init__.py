@@ -11,7 +11,7 @@ from ballscrew.questions.shared.options import Option
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class HandOverOptions:
-    """What is asked for besides the target, as text: what may be asked depends on the target."""
+    """Options besides the target, as text: what may be asked depends on the target."""
 
     ranges: Annotated[
         Sequence[str],

@@ -12,7 +12,7 @@ from ballscrew.questions.shared.question import NEED, Endpoint, Question
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class OptimiseOptions:
-    """What is asked of an optimisation; None stands for what the table ``[optimise]`` says, or what is usual."""
+    """Options of an optimisation; None stands for what the table ``[optimise]`` says, or what is usual."""
 
     #: Empty for those of the need.
     objectives: Objectives = ()

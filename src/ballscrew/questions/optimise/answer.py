@@ -101,7 +101,7 @@ def _member(member: Member) -> dict[str, Any]:
 
 
 def _search(request: Request) -> dict[str, Any]:
-    """What both a search and its plan take; the seed is of the search alone."""
+    """Arguments that both a search and its plan take; the seed is of the search alone."""
     options = vars(request.options(OptimiseOptions))
     return {**options, **vars(request.case_options), "objectives": objectives(options["objectives"])}
 

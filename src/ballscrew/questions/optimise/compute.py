@@ -155,7 +155,7 @@ _SCREW, _SPEED = fields_of(BallScrew), fields_of(OperatingState)["screw_speed"]
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    """What an optimisation would do."""
+    """Plan of an optimisation."""
 
     #: Designs of the search, with rigid and with elastic bodies, and members in full, at most.
     rigid: int
@@ -195,17 +195,17 @@ class Member:
 
     @property
     def holds(self) -> bool:
-        """Whether all checks were judged and hold by the full model."""
+        """True where all checks were judged and hold by the full model."""
         return all(check.holds for check in self.checks)
 
     @property
     def fits(self) -> bool:
-        """Whether no check fails by the full model; one that could not be judged does not."""
+        """True where no check fails by the full model; one that could not be judged does not."""
         return all(check.holds is not False for check in self.checks)
 
     @property
     def valid(self) -> bool:
-        """Whether it lies within the validity of the model."""
+        """True where it lies within the validity of the model."""
         return bool(self.checked.run.friction.valid)
 
 
@@ -346,7 +346,7 @@ def plan(
     calibration: str | None = None,
     allow_code: bool = False,
 ) -> Plan:
-    """How many designs :func:`optimise` would evaluate, and in about what time.
+    """Number of designs that :func:`optimise` would evaluate, and in about what time.
 
     Raises :class:`~ballscrew.basis.errors.InputError` as :func:`optimise` does for faults of the need.
     """
@@ -469,6 +469,6 @@ def _marked(members: Sequence[Member], objectives: Sequence[str]) -> list[Member
 
 
 def warnings(optimisation: Optimisation) -> list[Record]:
-    """That the first member which can be starved of oil is."""
+    """Warn that the first member which can be starved of oil is."""
     records = (Starved.of(member.checked, None).records for member in optimisation.members)
     return next(filter(None, records), [])

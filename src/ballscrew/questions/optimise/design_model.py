@@ -201,7 +201,7 @@ class SearchOptions(ByValue):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class DesignSpace:
-    """What is free, its bounds in SI, the kind of nut, and the ratios of sizes that are made."""
+    """Free values, their bounds in SI, the kind of nut, and the ratios of sizes that are made."""
 
     nut: str
     bounds: Mapping[str, Span]

@@ -64,7 +64,7 @@ class Banded(NamedTuple):
 
 
 class RuleBesideBand(NamedTuple):
-    """What a rule gives for the nut, and whether the band of the model holds it."""
+    """Torque that a rule gives for the nut, and whether the band of the model holds it."""
 
     beside: BesideRule
     is_in_band: bool
@@ -196,7 +196,7 @@ def label_of(one: RuleBesideBand) -> str:
 
 
 def torque_of(one: RuleBesideBand, here: Banded) -> str:
-    """What a rule gives, with its unit."""
+    """Torque that a rule gives, with its unit."""
     return shown_or_dash(float(one.beside.by_rule.torque), _quantity(here, _TORQUE))
 
 
@@ -212,7 +212,7 @@ def value_and_band(banded: Banded, name: str) -> tuple[str, str]:
 
 
 def contradiction_of(preloaded_nut: PreloadedNut) -> str:
-    """By how much the rules contradict each other."""
+    """Factor by which the rules contradict each other."""
     return contradiction([one.beside for one in preloaded_nut.rules])
 
 

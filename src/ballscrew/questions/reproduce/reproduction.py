@@ -257,7 +257,7 @@ def counts(claims: Sequence[olaru2005.Claim]) -> str:
 
 
 def _meaning(claims: Sequence[olaru2005.Claim]) -> str:
-    """What the verdicts mean to a reader who wants to use the paper."""
+    """Meaning of the verdicts for a reader who wants to use the paper."""
     shown = {claim.key: [claim.findings[name].short for name in _MODELS] for claim in claims}
     stated = {claim.key: claim.paper for claim in claims}
     (minimum, corrected_minimum), (efficiency, corrected), (film, _) = (

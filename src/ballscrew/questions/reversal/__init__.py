@@ -11,7 +11,7 @@ from ballscrew.questions.shared.question import Question
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class ReversalOptions:
-    """What is asked of a reversal; numbers in SI."""
+    """Options of a reversal; numbers in SI."""
 
     from_rest: Annotated[bool, Option("Start from rest instead of after motion in the other direction.")] = False
     travel: Annotated[

@@ -88,7 +88,7 @@ STIFFNESS: Quantity = quantities_of(Dahl)["presliding_stiffness"]
 
 
 class Place(NamedTuple):
-    """Where friction has come back to a share of its swing; zero at once, NaN where it does not within the travel."""
+    """Point where friction is back at a share of its swing; zero at once, NaN where it is not within the travel."""
 
     share: Annotated[Ratio, Info("", "share of the swing of the friction torque")]
     screw_angle: Annotated[Angle, Info(r"\theta", "angle of the screw at which this share is back", "deg")]
@@ -112,7 +112,7 @@ class ReversalReport:
 
     @functools.cached_property
     def swing(self) -> Sequence[Place]:
-        """Where the shares of the swing are back, of all friction."""
+        """Places where the shares of the swing are back, of all friction."""
         return self._places(np.asarray(self.reversal.screw_torque, dtype=float), float(self.reversal.steady_torque))
 
     @functools.cached_property
@@ -143,7 +143,7 @@ class ReversalReport:
 
     @property
     def verdicts(self) -> list[Record]:
-        """Where most of the friction is back, that one stiffness cannot hold it, and how many elements can."""
+        """Records of where most friction is back, that one stiffness cannot hold it, and how many elements can."""
         place = next(one for one in self.swing if one.share == MOST)
         share = units.percent(MOST)
         start = "from rest" if self.reversal.from_rest else "after a reversal"
@@ -175,7 +175,7 @@ class ReversalReport:
 
     @property
     def warnings(self) -> list[Record]:
-        """That the helix part is a hypothesis, what is known of the first range, and implausible inputs."""
+        """Warn that the helix part is a hypothesis, what is known of the first range, and implausible inputs."""
         records: list[Record] = []
         if self.crosses:
             text = (
@@ -401,7 +401,7 @@ def _where(places: Sequence[Place]) -> list[Cell]:
 
 
 def _swing(report: ReversalReport) -> Table:
-    """Where the shares of the swing are back, of all friction."""
+    """Places where the shares of the swing are back, of all friction."""
     steady = float(report.reversal.steady_torque)
     start = 0.0 if report.reversal.from_rest else -steady
     rows: list[Sequence[Cell]] = [

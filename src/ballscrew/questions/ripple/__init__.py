@@ -12,7 +12,7 @@ from ballscrew.questions.shared.question import Question
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class RippleOptions:
-    """What is asked of the torque over the angle; numbers in SI.
+    """Options of the torque over the angle; numbers in SI.
 
     What is left out is that of the law ``chain`` of the force between balls, where the case has it.
     """

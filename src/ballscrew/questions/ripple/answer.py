@@ -106,7 +106,7 @@ class RippleReport:
 
     @lazy
     def assumed(self) -> Sequence[str]:
-        """What a catalogue does not print, and what is left out."""
+        """Assumptions for what a catalogue does not print, and what is left out."""
         gap, deviation, circuits = (self.given[name] for name in ("gap", "groove_deviation", "circuits"))
         return [
             f"in each circuit room for {gap:g} balls, grooves {units.shown(deviation, _DEVIATION)} off "
@@ -136,7 +136,7 @@ class RippleReport:
 
 
 def shows(usual: Ripple, ripple: Ripple) -> bool:
-    """Whether the torque of a nut with a fault differs from that without it by more than nuts of one kind do."""
+    """Test whether the torque of a nut with a fault differs from that without it by more than nuts of one kind do."""
     mean, change = ripple.mean / usual.mean, ripple.relative / usual.relative
     return abs(mean - 1) > SHOWS_MEAN or abs(change - 1) > SHOWS_RANGE
 
@@ -170,7 +170,7 @@ def ripple_of(case: Case, options: RippleOptions, done: Callable[[int, int], Non
 
 
 def given_of(case: Case, options: RippleOptions) -> Mapping[str, Any]:
-    """What the physics is asked with: as written, else as the case has it, else as is assumed.
+    """Inputs of the physics: as written, else as the case has it, else as is assumed.
 
     A case may describe its circuits by the law of the force between balls, and its returns by that of their losses.
     """

@@ -88,7 +88,7 @@ class NutState:
 
 
 class BesideRule(NamedTuple):
-    """What a rule gives for the nut, and the model over it."""
+    """Torque that a rule gives for the nut, and the model over it."""
 
     by_rule: OfRule
     ratio: Ratio
@@ -126,7 +126,7 @@ def messages(case: Case, nut: NutState | None) -> list[str]:
 
 
 def contradiction(result: Sequence[BesideRule]) -> str:
-    """By how much the rules contradict each other."""
+    """Factor by which the rules contradict each other."""
     torques = [float(one.by_rule.torque) for one in result]
     factor = units.fixed(max(torques) / min(torques), 2)
     return (
@@ -164,7 +164,7 @@ OF_IDLE_NUT = ("preload_torque_coefficient", "diameter_drag_coefficient")
 
 
 class Holding(NamedTuple):
-    """What holds a load."""
+    """Load that is held, and the torque that holds it."""
 
     axial_load: float
     holding_torque: float
@@ -172,7 +172,7 @@ class Holding(NamedTuple):
 
     @classmethod
     def of(cls, friction: FrictionResult, place: tuple[int, ...] = ()) -> Holding:
-        """That of a result, at a place of its arrays."""
+        """Values of a result, at a place of its arrays."""
         read = (np.asarray(value)[place].item() for value in (friction.holding_torque, friction.valid))
         return cls(float(np.asarray(friction.axial_load)[place]), *read)
 

@@ -193,7 +193,7 @@ def drag_label(losses: Sequence[str], *, included: bool) -> str:
 
 
 def rules_contradict(run: Run) -> list[str]:
-    """By how much the rules of makers contradict each other; nothing of a nut without preload."""
+    """Factor by which the rules of makers contradict each other; nothing of a nut without preload."""
     rules = beside_rules(run.case, run.nut)
     return [contradiction(rules)] if rules else []
 
@@ -250,7 +250,7 @@ def _loads(nut: NutState) -> Table:
 
 
 def stiffness(nut: NutState) -> Table:
-    """How the nut gives way at its operating point, its pressure, and its rigidity by ISO 3408-4."""
+    """Stiffness of the nut at its operating point, its pressure, and its rigidity by ISO 3408-4."""
     pressure = _RESULT["maximum_pressure"]
     rows: list[list[Cell]] = [
         [_LOADS[name].info.meaning, Number(float(getattr(nut.loads, name)), _LOADS[name])]

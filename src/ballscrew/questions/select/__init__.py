@@ -20,7 +20,7 @@ Objectives = Annotated[
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class SelectOptions:
-    """What is asked of a selection beside the need."""
+    """Options of a selection beside the need."""
 
     words: Annotated[
         str, Option('Only rows with these sizes and words: "rexroth 40x".', metavar="WORDS", flag="filter")
@@ -30,7 +30,7 @@ class SelectOptions:
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class ListOptions:
-    """How the candidates are ranked, and which of them are listed."""
+    """Ranking of the candidates, and which of them are listed."""
 
     #: Empty for those of the need.
     objectives: Objectives = ()

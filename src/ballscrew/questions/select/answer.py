@@ -131,7 +131,7 @@ class MotorTorque(table_of({name: NUMBERS[name] for name in ("torque_peak", "tor
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class OfMotion:
-    """What a candidate has beside the others where the need has a motion."""
+    """Values that a candidate has beside the others where the need has a motion."""
 
     #: Numbers of its cycle, where the need has a motion.
     duty: CycleOfNeed
@@ -476,6 +476,6 @@ def _estimates(candidate: Candidate, need: Need, made: Mapping[str, Any]) -> dic
 
 
 def _assumed(candidate: Candidate, need: Need) -> list[str]:
-    """What was assumed of the need and of the row, once each."""
+    """Assumptions about the need and the row, once each."""
     of_run = () if candidate.run is None else candidate.run.assumed
     return [*dict.fromkeys((*need.notes, *of_run))]

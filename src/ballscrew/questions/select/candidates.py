@@ -57,7 +57,7 @@ _FEED = fields_of(Requirements)["feed"]
 
 @dataclasses.dataclass(frozen=True)
 class Variant:
-    """What is chosen: a row, a kind of nut, a preload as it is written, and the table of an oil."""
+    """Choice of a row, a kind of nut, a preload as it is written, and the table of an oil."""
 
     row: CatalogueRow
     nut: str
@@ -108,7 +108,7 @@ class Candidate:
 
     @property
     def complete(self) -> bool:
-        """Whether the full model was computed."""
+        """True where the full model was computed."""
         return self.run is not None
 
     @property
@@ -126,17 +126,17 @@ class Candidate:
 
     @property
     def holds(self) -> bool:
-        """Whether all checks were judged and hold."""
+        """True where all checks were judged and hold."""
         return self.complete and all(check.holds for check in self.checks)
 
     @property
     def fits(self) -> bool:
-        """Whether no check fails; one that could not be judged does not."""
+        """True where no check fails; one that could not be judged does not."""
         return not self.failed
 
     @property
     def valid(self) -> bool:
-        """Whether the point lies within the validity of the model, as far as it was computed."""
+        """True where the point lies within the validity of the model, as far as it was computed."""
         return self.run is None or bool(self.run.run.friction.valid)
 
     @property
@@ -165,7 +165,7 @@ class Candidate:
 
     @property
     def cannot_hold(self) -> bool:
-        """Whether its loads alone rule it out, and not by little: :data:`NEARLY`."""
+        """True where its loads alone rule it out, and not by little: :data:`NEARLY`."""
         return self.worst_by_loads > NEARLY
 
     @property
@@ -205,12 +205,12 @@ def _preloads(need: Need, row: CatalogueRow, nut: str) -> Sequence[str]:
 
 
 def assumes_preload(need: Need, variant: Variant) -> bool:
-    """Whether the preload of a variant is one of :data:`USUAL_PRELOADS`, as neither need nor row has one."""
+    """Test whether the preload of a variant is one of :data:`USUAL_PRELOADS`, as neither need nor row has one."""
     return bool(variant.preload) and not need.preloads
 
 
 def lacks_preload(need: Need, variant: Variant) -> bool:
-    """Whether a need that names no kinds of nuts asks for a preload, and that of the row is of a kind without."""
+    """Test whether a need that names no kinds of nuts asks for a preload, and that of the row is of a kind without."""
     return bool(need.preloads) and not need.nuts and variant.nut not in PRELOADED
 
 
@@ -378,7 +378,7 @@ def _of_shaft(need: Need, case: Case) -> dict[str, float]:
 
 
 class Starved(NamedTuple):
-    """Where oil that comes back late makes friction smaller than in a full bath of oil."""
+    """Records of oil that comes back late and makes friction smaller than in a full bath of oil."""
 
     #: The record of the torque under load, of a motion that of its cycle; none where it hardly differs.
     under_load: Sequence[Record]

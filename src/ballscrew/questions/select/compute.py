@@ -72,7 +72,7 @@ UNASKED = (
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    """What a selection would do, before it is done."""
+    """Plan of a selection, before it is done."""
 
     #: Rows, nuts, preloads and oils, each with each.
     candidates: int
@@ -236,7 +236,7 @@ def plan(
     settings: Sequence[str] = (),
     keep_going: bool = False,
 ) -> Plan:
-    """How many candidates :func:`select` would judge, in about what time, and what of them it could not judge.
+    """Number of candidates that :func:`select` would judge, in about what time, and what of them it could not judge.
 
     Raises :class:`~ballscrew.basis.errors.InputError` as :func:`select` does for faults of the need and of the table.
     """
@@ -252,7 +252,7 @@ def plan(
 
 
 def _is_open(need: Need, place: str) -> bool:
-    """Whether a need leaves an input empty; a stroke stands for the length, once the ends are known."""
+    """Test whether a need leaves an input empty; a stroke stands for the length, once the ends are known."""
     section, _, name = place.partition(".")
     table = need.tables.get(section)
     if isinstance(table, Mapping) and name in table:
@@ -353,7 +353,7 @@ def verdict(result: Candidate) -> str:
 
 
 class BrakeOfNeed(NamedTuple):
-    """What the brake of an axis must hold."""
+    """Torques that the brake of an axis must hold."""
 
     #: True where the axis starts to move by itself, or goes on once started.
     falls: bool

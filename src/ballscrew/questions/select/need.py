@@ -116,7 +116,7 @@ class Need:
 
     @property
     def moves(self) -> bool:
-        """Whether it has a motion, and not one operating point."""
+        """True where it has a motion, and not one operating point."""
         return "motion" in self.tables
 
     def with_note(self, note: str) -> Need:

@@ -160,7 +160,7 @@ def reflected_mass(inertia: MomentOfInertia, lead: Length) -> Mass:
 
 
 def front(costs: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether no other row is better, for each row of costs, all to be small.
+    """Mask of the rows of costs, all to be small, to which no other row is preferable.
 
     A row beats another that it is nowhere above and somewhere below; equal rows beat each other not. Rows with NaN are
     on no front.
@@ -234,7 +234,7 @@ def of_friction(
 
 
 def kept_preload(preload: Force, largest_load: Force, balls: BallLoads) -> Check | None:
-    """Whether the largest load leaves some of the preload, with :func:`preload_used`; of a nut that has one."""
+    """Check whether the largest load leaves some of the preload, with :func:`preload_used`; of a nut that has one."""
     if not preload > 0:
         return None
     left, limit = float(balls.remaining_preload), float(balls.rigid_lift_off_load)
@@ -311,7 +311,7 @@ def step(required: Requirements, lead: float) -> Check | None:
 
 
 def back_driving(required: Requirements, checked: Checked) -> Check | None:
-    """Whether the load turns the screw, at rest and at the speed.
+    """Check whether the load turns the screw, at rest and at the speed.
 
     The value is the torque that the load has left over friction, negative where friction holds it: at rest, at the
     speed, and at the speed in a full bath of oil, as it is not measured whether a ball screw is starved; of these the
@@ -340,7 +340,7 @@ def back_driving(required: Requirements, checked: Checked) -> Check | None:
 
 
 def _of_axis(required: Requirements, report: DutyReport) -> Check | None:
-    """Whether the axis moves with the motor off, in all conditions of ``ballscrew duty``: as it is, cold, hot, dry."""
+    """Check whether the axis moves, motor off, in all conditions of ``ballscrew duty``: as it is, cold, hot, dry."""
     if required.back_driving == ALLOWED:
         return None
     brake = report.brake

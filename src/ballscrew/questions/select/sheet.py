@@ -87,7 +87,7 @@ def title(selection: Selection) -> str:
 
 
 def _answer(selection: Selection) -> Iterator[str]:
-    """Why none holds, and what is to be given so that one can."""
+    """Reason why none holds, and what is to be given so that one can."""
     reason, missing = not_judged(selection), _missing([each.candidate for each in selection.ranked])
     if reason:
         yield reason
@@ -132,7 +132,7 @@ def _label(candidate: Candidate, *, with_oil: bool) -> str:
 
 
 def _remarks(selection: Selection, ranked: Sequence[Ranked], shown: int) -> Iterator[str]:
-    """What is not in the list, or stands in it otherwise than it was computed."""
+    """Remarks on what is not in the list, or stands in it otherwise than it was computed."""
     if shown < len(ranked):
         yield f"… {len(ranked) - shown} more: --first 0 shows all"
     if not ranked:
@@ -171,7 +171,7 @@ def cost(plan: Plan) -> str:
 
 
 def not_judged(selection: Selection) -> str:
-    """Why none holds though some fail nothing: ``12 of them fail no check, but …``; empty where that is not so."""
+    """Reason why none holds, if some do not fail: ``12 of them fail no check, but …``; empty where that is not so."""
     fitting = [each.candidate for each in selection.ranked if each.candidate.fits]
     missing = _missing([each.candidate for each in selection.ranked])
     if selection.holding or not fitting or not missing:
@@ -181,12 +181,12 @@ def not_judged(selection: Selection) -> str:
 
 
 def _missing(candidates: Sequence[Candidate]) -> list[str]:
-    """What is missing for checks, each once."""
+    """Values missing for checks, each once."""
     return sorted({check.missing for each in candidates for check in each.checks if check.missing})
 
 
 def asked(need: Need) -> list[str]:
-    """What a need says of load, speed, mounting and life, as it is written."""
+    """Demands of a need on load, speed, mounting and life, as it is written."""
     known, required = fields_of(Requirements), need.requirements
     numbers = {name: getattr(required, name) for name in known}
     return [
@@ -234,7 +234,7 @@ def _estimate_decides(candidate: Candidate) -> bool:
 
 
 def what_turns(ranked: Sequence[Ranked]) -> list[str]:
-    """What the torque of the first candidate's motor accelerates, and what is missing in it.
+    """Inertias that the torque of the first candidate's motor accelerates, and what is missing in it.
 
     Beside it how many have a shaft with a larger inertia than the need gives for all that turns.
     """

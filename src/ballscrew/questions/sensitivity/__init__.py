@@ -11,7 +11,7 @@ from ballscrew.questions.shared.question import Question
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class SensitivityOptions:
-    """What is asked of a sensitivity analysis."""
+    """Options of a sensitivity analysis."""
 
     output: Annotated[str, Option("Result, for example efficiency.", metavar="NAME")] = "screw_torque"
     method: Annotated[

@@ -1,4 +1,4 @@
-"""What moves the friction torque of a case, and what to find out next: its document, and its sheet."""
+"""Causes that move the friction torque of a case, and what to find out next: its document, and its sheet."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ from ballscrew.questions.shared.question import (
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class ServiceOptions:
-    """What is asked of a service by logs; numbers in SI."""
+    """Options of a service by logs; numbers in SI."""
 
     tolerance: Annotated[float, Option("Share of the preload that may be lost.", metavar="SHARE")] = 0.1
     free: Annotated[

@@ -142,7 +142,7 @@ def of_torque(case: Case, measured: Reading) -> ServiceReport:
 
 
 def _starved(case: Case, preload_estimate: PreloadEstimate, measured: Reading) -> list[Record]:
-    """That the nut with the preload found is starved of oil at the reading."""
+    """Warn that the nut with the preload found is starved of oil at the reading."""
     oil = case.lubricant if measured.temperature is None else case.lubricant.at(measured.temperature)
     subject = Configuration(case.model, case.screw, oil).changed({PRELOAD: preload_estimate.preload})
     points = {"axial_load": 0.0, "screw_speed": measured.screw_speed}
@@ -227,7 +227,7 @@ def preload_quantity(case: Case) -> Quantity:
 
 
 def verdicts(case: Case, report: ServiceReport) -> list[Record]:
-    """What became of the preload, and each cause that would explain the log as well."""
+    """Fate of the preload, and each cause that would explain the log as well."""
     if report.change is None:
         return [_of_reading(case, report)]
     change = report.change

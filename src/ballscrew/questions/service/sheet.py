@@ -90,7 +90,7 @@ def names(report: ServiceReport) -> list[str]:
 
 
 def causes(report: ServiceReport) -> list[str]:
-    """What the interval comes from, the largest cause first."""
+    """Causes of the interval, the largest cause first."""
     by_cause = report.change.ratio_shares if report.change is not None else {}
     by_cause = report.preload.shares if report.preload is not None else by_cause
     shares = sorted(((share, name) for name, share in by_cause.items() if math.isfinite(share)), reverse=True)
@@ -105,7 +105,7 @@ def causes(report: ServiceReport) -> list[str]:
 
 
 def _logs(report: ServiceReport) -> list[str]:
-    """Of each log, the rows that are used, why the others are not, and what was done to it."""
+    """Rows of each log that are used, why the others are not, and what was done to it."""
     logs = {label: estimate.fit.rows.log for label, estimate in report.estimates.items() if estimate.fit is not None}
     return [f"{label} log: {line}" for label, log in logs.items() for line in (log.usage, *log.notes)]
 

@@ -255,5 +255,5 @@ def named(text: str, words: str) -> str:
 
 
 def some(places: NDArray[np.int64], most: int) -> NDArray[np.int64]:
-    """At most so many of some rows, the same each time."""
+    """Choose at most so many of some rows, the same each time."""
     return places if places.size <= most else np.random.default_rng(0).choice(places, most, replace=False)

@@ -44,7 +44,7 @@ class OneOf(NamedTuple):
 
 
 class Words(NamedTuple):
-    """What a part is, where its annotation comes from another class."""
+    """Meaning of a part, where its annotation comes from another class."""
 
     text: str
 
@@ -70,7 +70,7 @@ class Part(NamedTuple):
 
     @property
     def meaning(self) -> str:
-        """What it is, for people."""
+        """Meaning for people."""
         info = info_of(self.annotation)
         words = next((said.text for said in _said(self.annotation) if isinstance(said, Words)), self.words)
         return words if info is None else info.meaning

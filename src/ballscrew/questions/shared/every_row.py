@@ -28,7 +28,7 @@ R = TypeVar("R")
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class OfRows(Generic[R]):
-    """What was found for each row, by its name, and what is to be said of the others."""
+    """Results for each row, by its name, and what is to be said of the others."""
 
     found: Mapping[str, R]
     notes: Sequence[str]

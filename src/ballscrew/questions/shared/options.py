@@ -85,7 +85,7 @@ class OptionField:
 
     @property
     def kind(self) -> Kind:
-        """What it is as it is written."""
+        """Kind of value as it is written."""
         bare = get_origin(self.type) or self.type
         if bare is Literal:
             return "choice"
@@ -109,7 +109,7 @@ class OptionField:
 
     @property
     def written_default(self) -> Any:
-        """What stands for the default as it is written: an empty list or table, null, or the number itself."""
+        """Value that stands for the default as it is written: an empty list or table, null, or the number itself."""
         if self.kind in ("names", "quantities"):
             return []
         if self.kind in ("texts", "ranges"):
@@ -209,5 +209,5 @@ OnlyGiven = Annotated[bool, Option("With --band: only the uncertain inputs that 
 
 
 def number_of_samples(meaning: str) -> Option:
-    """How many samples a band has; a meaning says of what, and how many there are if it is left out."""
+    """Option for the number of samples of a band; a meaning says of what, and how many there are if it is left out."""
     return Option(f"With --band: {meaning}.", metavar="N")

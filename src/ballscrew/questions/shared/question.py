@@ -28,7 +28,7 @@ SELF_HEATING = Option("Take the oil as warm as friction makes it in the [surroun
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class CaseOptions:
-    """How a case is read: its model and calibration, values in place of those of the file, code of its own."""
+    """Options of reading a case: its model and calibration, values in place of those of the file, code of its own."""
 
     model: Annotated[str | None, Option(f"Model, in place of that of the file: {MODEL_NAMES}.", metavar="NAME")] = None
     calibration: Annotated[

@@ -78,19 +78,19 @@ class Problem(Closed):
 
 
 class Shown(Closed):
-    """What people read of the results."""
+    """Text that people read of the results."""
 
     sheet: Tables = Field(description="the sheet, as the command prints it with --sheet")
 
 
 class OfLogs(Shown):
-    """What stands beside results of logs: their names and digests are in the provenance."""
+    """Text beside results of logs: their names and digests are in the provenance."""
 
     provenance: Tables
 
 
 class Assumed(Shown):
-    """What is assumed, in words."""
+    """Assumptions, in words."""
 
     assumed: list[str]
 

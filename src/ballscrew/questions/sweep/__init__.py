@@ -12,7 +12,7 @@ from ballscrew.questions.shared.options import Level, OnlyGiven, Option, number_
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class SweepOptions:
-    """What is asked of a sweep: axes, outputs, and the ends of their bands."""
+    """Options of a sweep: axes, outputs, and the ends of their bands."""
 
     vary: Annotated[
         Sequence[str],

@@ -55,7 +55,7 @@ class Swept(Values):
 
 
 class SweepBand(NamedTuple):
-    """What the bands of a sweep are of."""
+    """Data of the bands of a sweep."""
 
     #: Share of the samples between the ends.
     level: Annotated[float, FINITE]

@@ -34,7 +34,7 @@ _MODEL = "model"
 
 
 class _Inputs(NamedTuple):
-    """What is uncertain at a point, and the case there, whose operating point does not count."""
+    """Uncertain inputs at a point, and the case there, whose operating point does not count."""
 
     case: Case
     uncertain: Mapping[str, Distribution]
@@ -191,7 +191,7 @@ def _inputs_at(
     *,
     only_given: bool,
 ) -> _Inputs:
-    """What is uncertain where inputs have other values: as of a case file that has them, and no ± beside them."""
+    """Uncertain inputs where inputs have other values: as of a case file that has them, and no ± beside them."""
     there = Configuration(case.model, case.screw, case.lubricant).changed({**here, **given_of_oil})
     uncertain = {name: distribution for name, distribution in case.origins.uncertain.items() if name not in varied}
     if case.origins.speed_of_nut and "lead" in here and "screw_speed" in uncertain:

@@ -251,7 +251,7 @@ def _units_of(known: Mapping[str, tuple[str, Quantity]]) -> dict[str, str]:
 
 
 def _heat() -> Mapping[str, Quantity]:
-    """What the heat does at each point."""
+    """Quantities of the heat at each point."""
     from ballscrew.axis.thermal.warm_sweep import HEAT  # for those only who ask
 
     return HEAT

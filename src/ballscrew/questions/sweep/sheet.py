@@ -45,7 +45,7 @@ def size(dataset: xr.Dataset, plan: Plan) -> str:
 
 
 def assumed(dataset: xr.Dataset) -> list[Line]:
-    """What a sweep that heats itself assumes of the heat."""
+    """Assumptions of a sweep that heats itself of the heat."""
     texts = [text for text in str(dataset.attrs.get("assumed", "")).split("\n") if text]
     heading = "assumed of the heat; where a number depends on the speed, it is that of the last point:"
     return [Line(heading, "small"), *(Line(f"  {text}", "small") for text in texts)] if texts else []

@@ -278,7 +278,7 @@ def _case(entry: Entry, at: OperatingPoint) -> Case:
 
 
 def _kind(case: Case, inputs: Mapping[str, Uncertain]) -> Hashable:
-    """What must be the same in cases that are evaluated together."""
+    """Key that must be the same in cases that are evaluated together."""
     nut = case.screw.nut
     return type(nut), nut.spacer_balls, tuple(nut.losses), case.lubricant, tuple(inputs)
 

@@ -108,7 +108,7 @@ def _of_groups(entries: Sequence[Entry]) -> Iterator[SummaryRow]:
 
 
 def _fitted(entry: Entry, calibration: str) -> list[str]:
-    """That a calibration was fitted to rows of a group: to all of its file, or to those that are declared."""
+    """Remark that a calibration was fitted to rows of a group: to all of its file, or to those that are declared."""
     if calibration not in entry.data.calibrations:
         return []
     if not calibrations()[calibration].declared_rows:
@@ -332,7 +332,7 @@ def _ends(point: Point) -> tuple[float, float] | None:
 
 
 def _outside(same: Sequence[Point]) -> str:
-    """Which models lie outside the band of a row."""
+    """Names of the models that lie outside the band of a row."""
     names = [name for name, point in zip(("model", "calibrated"), same, strict=False) if point.in_band is False]
     return "both" if len(names) > 1 else "".join(names)
 

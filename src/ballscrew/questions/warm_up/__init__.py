@@ -11,7 +11,7 @@ from ballscrew.questions.shared.question import Endpoint, Question
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class WarmUpOptions:
-    """What is asked of a warm-up: hours of work and of rest, and a band."""
+    """Options of a warm-up: hours of work and of rest, and a band."""
 
     hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
     cool_down: Annotated[float, Option("Hours of rest after the work; 0 if left out.", metavar="H")] = 0.0

@@ -96,7 +96,7 @@ class SelfHeating:
 
     @property
     def numbers(self) -> SelfHeatingNumbers:
-        """What was taken, and what it stands for."""
+        """Values taken, and what they stand for."""
         end, oil = self.equilibrium, self.given.lubricant.temperature
         return from_attributes(
             SelfHeatingNumbers,
@@ -124,7 +124,7 @@ class SelfHeating:
 
     @property
     def records(self) -> list[Record]:
-        """What was taken in place of what and what it does, and starvation."""
+        """Records of what was taken in place of what and what it does, and starvation."""
         return [self._record, *self._starved]
 
     @property

@@ -99,7 +99,7 @@ def _change(value: float, start: float) -> str:
 
 
 def warnings(report: WarmUpReport) -> list[Record]:
-    """What is strange about the inputs and the oil as warm as it becomes, and what of the motion does not count."""
+    """Warnings of strange inputs and the oil as warm as it becomes, and what of the motion does not count."""
     case = report.case
     warmest = case.lubricant.at(float(np.max(report.warm_up.oil_temperature)))
     parts = {"surroundings": report.surroundings, "lubricant": warmest}
@@ -109,7 +109,7 @@ def warnings(report: WarmUpReport) -> list[Record]:
 
 
 def band_records(warm_up_band_report: WarmUpBandReport) -> list[Record]:
-    """What is not in the bands: how halves are braced, and samples that have no steady state or leave what is known."""
+    """Limits of the bands: how halves are braced, and samples that have no steady state or leave what is known."""
     bands, said = warm_up_band_report.bands, list[Record]()
     if bands.warm_up.network.by_bracing:
         message = (
