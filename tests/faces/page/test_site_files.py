@@ -7,12 +7,14 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.faces.page import bundle, site
 
+TESTS = Path(__file__).parents[2]
 FEW = {"models": ["olaru2005"], "nuts": ["row"]}
 
 
@@ -35,13 +37,16 @@ def test_two_builds_are_the_same_bytes(files):
     # in a process of its own, whose sets have another order
     program = f"""
 import hashlib
+import pytest
 from ballscrew.faces.page import site
+from support.quick_kernels import UNOPTIMISED, set_code_optimisation
+set_code_optimisation(pytest.MonkeyPatch(), UNOPTIMISED)
 for name, content in site.site(**{FEW}).items():
     print(name, hashlib.sha256(content).hexdigest())
 """
     build = subprocess.run(
         [sys.executable, "-c", program],
-        env={**os.environ, "PYTHONHASHSEED": "1"},
+        env={**os.environ, "PYTHONHASHSEED": "1", "PYTHONPATH": str(TESTS)},
         capture_output=True,
         text=True,
         check=True,
