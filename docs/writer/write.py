@@ -13,7 +13,7 @@ So a page reads where it lies, without a build. What is written stands between m
 - ``file``: a file of the repository, or one that a command of the page has kept (``commands/PAGE/NAME``), as code:
   whole, ``from`` a line, ``to`` before another, or its first ``lines``;
 - ``equation``: the formula of a function, with its symbols, units and source;
-- ``output``: what the Python block before it prints; the blocks of a page share their names;
+- ``output``: what the Python block before it prints; of a page such blocks alone are run, and share their names;
 - ``<!--= NAME-->0.87<!--/-->``: a number.
 
 Decisions are as they were written: no mark in them is followed. A figure is in ``figures/PART`` where a page shows it.
@@ -142,11 +142,11 @@ class Written:
 
     @property
     def runs(self) -> bool:
-        """Whether something of it is run."""
+        """True where something of it is run."""
         return any(block["kind"] in ("command", "output") for block in self.blocks)
 
     def outputs(self, files: kept.Files) -> list[str]:
-        """What its commands and its Python blocks print."""
+        """Output of its commands and of its Python blocks."""
         page, printed = Page(self.name, files), self._printed()
         commands = iter(self.commands)
         return [

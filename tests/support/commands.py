@@ -75,7 +75,7 @@ class Process:
 
 
 class Commands:
-    """Runs commands of the program as forks of a process that has loaded it. One for all tests of a worker."""
+    """Runs commands of the program as forks of a process that has loaded it; `shared_commands` has that of a run."""
 
     def __init__(self, server: Path = FORK_SERVER, path: Sequence[Path] = ()) -> None:
         """``server``: the program that loads libraries and forks; ``path``: where else it finds modules."""

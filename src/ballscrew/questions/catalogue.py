@@ -94,7 +94,7 @@ def _cells(row: CatalogueRow) -> list[str]:
 
 
 def _mark(row: CatalogueRow) -> str:
-    """Mark of what the row of a list says of its ratings and its torque, in few words."""
+    """Remark on the ratings and the torque of a row of a list, in few words."""
     texts = notes(row)
     differs = any(note.startswith(("dynamic", "static")) for note in texts)
     return ", ".join(filter(None, ["ratings differ" * differs, "no torque" * bool(row.refusal)]))

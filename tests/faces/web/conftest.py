@@ -154,8 +154,9 @@ MADE_WHILE_COLLECTED = {"test_fields_of_a_case.py": "not long", "test_schema_of_
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Whether a file is left out before its tests are made."""
-    return MADE_WHILE_COLLECTED.get(collection_path.name, "nothing") in config.getoption("markexpr") or None
+    """Leave a file out before its tests are made."""
+    words = MADE_WHILE_COLLECTED.get(collection_path.name)
+    return (words is not None and words in config.getoption("markexpr")) or None
 
 
 @pytest.fixture(scope="module")

@@ -30,7 +30,7 @@ BEARING_LAWS: Mapping[str, type] = {
 }
 GUIDE_LAWS: Mapping[str, type] = {"maker": LinearGuide, "contacts": ContactGuide}
 #: The laws of both as people read them.
-IN_WORDS: Mapping[str, str] = {
+LAW_WORDS: Mapping[str, str] = {
     "contacts": "by its contacts",
     "skf": "by the model of SKF2018",
     "palmgren": "by Palmgren's moments, a recalled form",

@@ -379,7 +379,7 @@ def _unread(entry: os.DirEntry[str]) -> str:
 
 
 def count_false(path: Path) -> dict[str, tuple[int, int]]:
-    """Count of each truth value of a complete store that is false somewhere, and the first block with it."""
+    """Number of false points of each truth value of a complete store that has some, and the first block with one."""
     contents = contents_of(path)
     rows, counts = contents.rows(), dict[str, tuple[int, int]]()
     if len(rows) < contents.blocks.count:

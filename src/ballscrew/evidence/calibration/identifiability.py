@@ -44,7 +44,7 @@ class IdentifiableDirections:
 
     @classmethod
     def of(cls, root: Vector) -> IdentifiableDirections:
-        """Decompose derivatives of residuals over the scatter by scaled parameters, of shape (rows, parameters)."""
+        """Decompose derivatives by scaled parameters of residuals over their scatter, of shape (rows, parameters)."""
         count = root.shape[1]
         _, s, directions = np.linalg.svd(np.vstack([root, np.zeros((count, count))]), full_matrices=False)
         identifiable = (MAXIMUM_RELATIVE_ERROR * s >= 1) & (s > ROUNDING_SHARE * s.max(initial=0.0))

@@ -56,7 +56,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Progress:
-    """Amount done, and of how much, as the work itself counts it."""
+    """Amount done and total amount, as the work itself counts them."""
 
     finished: int
     total: int

@@ -263,7 +263,7 @@ def _refuse_log(path: Path) -> None:
 
 
 def _times(table: tables.Table, rows: Sequence[tables.Row]) -> tuple[str, Any, Sequence[str]]:
-    """Unit of times, the times and how they are written."""
+    """Unit in which tests are counted (s, or a test), their times and their labels."""
     name = next((one for one in ("date", "time", "number") if one in table.headings), None)
     if name is None:
         return "test", None, ()

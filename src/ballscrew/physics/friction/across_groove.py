@@ -101,7 +101,7 @@ def preload_off_line(screw: BallScrew, lateral_friction_angle: Angle) -> Force:
 
 
 def growth_of(screw: BallScrew, approach: Length, lateral_friction_angle: Angle) -> Length:
-    """Further approach off the line of the balls of ``screw`` that an ``approach`` presses, at centres that stay."""
+    """Growth of an ``approach`` of the balls of ``screw`` as they leave their line while the groove centres stay."""
     A = rigidity.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     s, d_w = A + approach, screw.ball_diameter
     conformities = screw.screw_conformity, screw.nut_conformity
@@ -131,7 +131,7 @@ def _approach(screw: BallScrew, load: Force) -> Length:
 
 
 def _of_elastic_bodies(screw: BallScrew, beta: Angle) -> Force:
-    """Force of a half by itself: a single nut whose screw and nut are held on one side, with the preload for a load.
+    """Preload off the line between elastic bodies, by a half alone: a single nut held on one side, with it for a load.
 
     Its first ball moves by what its springs and bodies give way; balls that are larger touch earlier.
     """

@@ -135,7 +135,7 @@ class Parts(NamedTuple):
 
 
 class Step(NamedTuple):
-    """State that a step of the screw has come to."""
+    """Result of a step of the screw."""
 
     torque: Parts
     lateral_force: Force

@@ -98,9 +98,6 @@ def load_ratings(screw: BallScrew) -> Ratings:
 SMALLEST_SHARE = 0.002
 
 
-# ruff: noqa: D102  (members of a protocol are described where a row has them)
-
-
 class Listed(Rated, Protocol):
     """Values that a row lists of its nut."""
 

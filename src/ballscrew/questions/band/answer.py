@@ -199,7 +199,7 @@ def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Recor
 
 
 def _full_bath(report: BandReport) -> list[Record]:
-    """Place of the torque of the full bath in a band of both tracks, or beside one of the starved track only."""
+    """Record of the torque of the full bath: within a band of both tracks, or beside one of the starved track only."""
     high, flooded = report.band[_TORQUE].both.high, report.flooded_torque
     if flooded is None:
         return []

@@ -154,7 +154,7 @@ def _brake(report: DutyReport) -> Record:
 
 
 def _way(report: DutyReport) -> str:
-    """Effect of the load on the axis: lowers it, raises it (a counterweight), or moves it along."""
+    """Verb for what the load does with the axis: falls, rises (by a counterweight), or moves along."""
     load, inclination = report.brake.conditions[0].load_torque, report.axis.inclination
     if not inclination:
         return "moves"

@@ -271,7 +271,7 @@ def _percent(share: float) -> str:
 
 
 def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[str]:
-    """Note that the next test asks for more than the log has shown the rig to give, or that there is no such test."""
+    """Notes that the next test is beyond the log, or that only its loads and speeds were considered."""
     log = model.rows.log
     logged = {"axial_load": log.axial_load, "screw_speed": np.abs(log.screw_speed)}
     ends = {name: (min(float(values.min()), 0.0), max(float(values.max()), 0.0)) for name, values in logged.items()}

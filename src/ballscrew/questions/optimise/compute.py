@@ -346,7 +346,7 @@ def plan(
     calibration: str | None = None,
     allow_code: bool = False,
 ) -> Plan:
-    """Number of designs that :func:`optimise` would evaluate, and in about what time.
+    """Plan of an optimisation: the designs that :func:`optimise` would evaluate, and about the time it takes.
 
     Raises :class:`~ballscrew.basis.errors.InputError` as :func:`optimise` does for faults of the need.
     """
@@ -469,6 +469,6 @@ def _marked(members: Sequence[Member], objectives: Sequence[str]) -> list[Member
 
 
 def warnings(optimisation: Optimisation) -> list[Record]:
-    """Warn that the first member which can be starved of oil is."""
+    """Records of starvation, of the first member that has any."""
     records = (Starved.of(member.checked, None).records for member in optimisation.members)
     return next(filter(None, records), [])

@@ -143,7 +143,7 @@ class ReversalReport:
 
     @property
     def verdicts(self) -> list[Record]:
-        """Records of where most friction is back, that one stiffness cannot hold it, and how many elements can."""
+        """Verdicts on the travel to most of the friction, on a single stiffness, and on Maxwell-slip elements."""
         place = next(one for one in self.swing if one.share == MOST)
         share = units.percent(MOST)
         start = "from rest" if self.reversal.from_rest else "after a reversal"
@@ -175,7 +175,7 @@ class ReversalReport:
 
     @property
     def warnings(self) -> list[Record]:
-        """Warn that the helix part is a hypothesis, what is known of the first range, and implausible inputs."""
+        """Warnings: the helix part as a hypothesis, limits of what is known of the first range, implausible inputs."""
         records: list[Record] = []
         if self.crosses:
             text = (

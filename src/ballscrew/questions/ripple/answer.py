@@ -170,7 +170,7 @@ def ripple_of(case: Case, options: RippleOptions, done: Callable[[int, int], Non
 
 
 def given_of(case: Case, options: RippleOptions) -> Mapping[str, Any]:
-    """Inputs of the physics: as written, else as the case has it, else as is assumed.
+    """Inputs of the physics: as written, else as the case has them, else as assumed.
 
     A case may describe its circuits by the law of the force between balls, and its returns by that of their losses.
     """

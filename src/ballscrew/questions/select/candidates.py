@@ -378,7 +378,7 @@ def _of_shaft(need: Need, case: Case) -> dict[str, float]:
 
 
 class Starved(NamedTuple):
-    """Records of oil that comes back late and makes friction smaller than in a full bath of oil."""
+    """Starvation of a candidate: torques that oil coming back late makes smaller than in a full bath."""
 
     #: The record of the torque under load, of a motion that of its cycle; none where it hardly differs.
     under_load: Sequence[Record]

@@ -236,7 +236,7 @@ def plan(
     settings: Sequence[str] = (),
     keep_going: bool = False,
 ) -> Plan:
-    """Number of candidates that :func:`select` would judge, in about what time, and what of them it could not judge.
+    """Plan of a selection: its candidates, about the time it takes, and the requirements that it could not judge.
 
     Raises :class:`~ballscrew.basis.errors.InputError` as :func:`select` does for faults of the need and of the table.
     """

@@ -156,9 +156,10 @@ _BESIDE: Mapping[str, str] = {
     "need.stroke": 'add stroke = "600 mm", the way of the mass',
     "need.feed": 'add feed = "15 m/min", the largest speed of the mass',
 }
-#: What takes the place of a load and a speed beside a mass.
+#: What is assumed of a motion.
 _WITHOUT_RESTS = "motion: there and back over the stroke without rests, as no dwell was given"
 _HORIZONTAL = "axis: horizontal, as no inclination was given"
+#: What takes the place of a load and a speed beside a mass.
 _INSTEAD: Mapping[str, str] = {
     "axial_load": "leave it out: mass, inclination and acceleration make the load; a force at work is [motion] force",
     "screw_speed": "write the feed: each lead then has a speed of its own",
@@ -367,7 +368,7 @@ class NeedReader:
         return [{**table, **oil} for oil in named] or [table]
 
     def _check_operation(self, has_feed: bool) -> None:
-        """Faults of a need that says neither a force and a speed nor a motion."""
+        """Refuse a need without a force and a speed or a motion, and a feed beside a motion or a screw speed."""
         table = self._section("operation")
         if "motion" in self.tables:
             if has_feed:

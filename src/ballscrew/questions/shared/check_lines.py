@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew.axis.supports.bearing import MountedBearing
-from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, IN_WORDS, name_of
+from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, LAW_WORDS, name_of
 from ballscrew.basis import units
 from ballscrew.basis.errors import in_file
 from ballscrew.basis.output.sheet import Cell, Number, Share, Table
@@ -121,7 +121,8 @@ def _words(element: Any, laws: Any) -> str:
         if name in known and getattr(element, name)
     ]
     assumed = getattr(element, "assumed", ())
-    return f"{IN_WORDS[law]}: {', '.join(sizes) or 'nothing'}" + (f"; assumed: {', '.join(assumed)}" if assumed else "")
+    line = f"{LAW_WORDS[law]}: {', '.join(sizes) or 'nothing'}"
+    return f"{line}; assumed: {', '.join(assumed)}" if assumed else line
 
 
 def _mounting(bearing: MountedBearing) -> str:

@@ -84,7 +84,7 @@ class Shown(Closed):
 
 
 class OfLogs(Shown):
-    """Text beside results of logs: their names and digests are in the provenance."""
+    """Sheet and provenance beside results of logs; the provenance has their names and digests."""
 
     provenance: Tables
 

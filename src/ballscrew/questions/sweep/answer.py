@@ -55,7 +55,7 @@ class Swept(Values):
 
 
 class SweepBand(NamedTuple):
-    """Data of the bands of a sweep."""
+    """Level, samples and seed of the bands of a sweep."""
 
     #: Share of the samples between the ends.
     level: Annotated[float, FINITE]

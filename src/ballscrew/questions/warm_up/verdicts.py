@@ -109,7 +109,7 @@ def warnings(report: WarmUpReport) -> list[Record]:
 
 
 def band_records(warm_up_band_report: WarmUpBandReport) -> list[Record]:
-    """Limits of the bands: how halves are braced, and samples that have no steady state or leave what is known."""
+    """Records of what the bands leave out: bracing of the halves, samples without a steady state, unknown friction."""
     bands, said = warm_up_band_report.bands, list[Record]()
     if bands.warm_up.network.by_bracing:
         message = (
