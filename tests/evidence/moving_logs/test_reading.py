@@ -89,12 +89,14 @@ def test_a_force_from_the_power_of_the_motor_over_its_speed(tmp_path):
     position, time = 1.0 + np.cumsum(speed) * 0.1, 0.1 * np.arange(6)
     power = 30.0 * np.abs(speed)
     path = csv_of(tmp_path / "log.csv", ["t [s]", "x [m]", "v [m/s]", "motor power [W]"], time, position, speed, power)
-    log = read_moving(path, lead=LEAD)
+    log = read_moving(path, lead=LEAD, steady=True)
     assert log.force == pytest.approx([30, 30, math.nan, math.nan, math.nan, -30], nan_ok=True)
     assert log.unit == "N"
     without = csv_of(tmp_path / "slow.csv", ["t [s]", "x [m]", "motor power [W]"], time, position, power)
     with pytest.raises(InputError, match="makes a force only over a speed that is logged"):
-        read_moving(without, lead=LEAD)
+        read_moving(without, lead=LEAD, steady=True)
+    with pytest.raises(InputError, match="tells no force where the axis turns round · --steady"):
+        read_moving(path, lead=LEAD)
 
 
 def test_decimal_commas_and_a_row_of_units(tmp_path):

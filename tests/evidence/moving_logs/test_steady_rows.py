@@ -53,20 +53,41 @@ def test_what_cannot_be_told_is_refused():
     assert np.isnan(steady_friction(slow).exponent)
 
 
-@pytest.mark.parametrize(("speed", "low", "high"), [("mill_slow", 4.2, 5.2), ("mill_fast", 6.5, 7.5)])
-def test_a_real_mill_as_read_by_hand(speed, low, high):
-    """Amperes of the X axis at 3 and at 20 mm/s, by thirty lines written apart from this program."""
-    log = read_moving(EXAMPLES / f"{speed}.csv", lead=0.01, axis="X1", period=0.1, in_amperes=True)
-    (steady,) = steady_friction(log).speeds
-    assert low < steady.friction < high
-    assert 0.05 < steady.std < 0.6
-    assert log.unit == "A"
+def test_one_direction_counts_without_the_offset_of_the_other_speeds():
+    """41 N at 0.1 m/s, logged backward alone, once; 7 N of gravity are known from the slower speed."""
+    log = log_of([0.001, 0.03, 0.1], lambda v: 40 + 1.0 * (v > 0.05), offset=7.0)
+    rows = np.r_[:420, 455:490]
+    assert np.all(log.speed[455:490] <= 0)
+    force = log.force + np.random.default_rng(2).normal(0, 0.1, len(log))
+    # the slowest tells how finely speeds are written, and is no steady one
+    slow, alone = steady_friction(MovingLog(time=log.time[rows], force=force[rows], speed=log.speed[rows])).speeds
+    assert (slow.is_one_way, alone.is_one_way) == (False, True)
+    assert np.isnan(alone.forward)
+    assert alone.backward == pytest.approx(-34.0, abs=0.1)
+    assert alone.offset == slow.offset == pytest.approx(7.0, abs=0.1)
+    assert alone.friction == pytest.approx(41.0, abs=0.1)
+    # the scatter of stretches at the other speed, as there is one here, and the error of the offset
+    assert alone.std > slow.std > 0
+
+
+def test_a_real_mill_as_read_by_hand():
+    """Amperes of the X axis, by thirty lines written apart from this program: 9.4 at 50 mm/s, in one direction."""
+    slow, fast = (read_moving(file, lead=0.01, axis="X1", period=0.1, steady=True) for file in FILES)
+    assert (slow.unit, fast.unit) == ("A", "A")
+    three, _, twenty, fifty = steady_friction(slow, fast).speeds
+    assert 4.2 < three.friction < 5.2
+    # by hand without telling 18 from 20 mm/s
+    assert 6.5 < twenty.friction < 7.5 + twenty.std
+    assert fifty.friction == pytest.approx(9.4, abs=fifty.std)
+    assert fifty.is_one_way
+    assert all(0.05 < speed.std < 0.8 for speed in (three, twenty, fifty))
 
 
 def test_on_the_command_line(ballscrew):
     document = json.loads(ballscrew("fit", FILES[0], "--test", FILES[1], "--steady", "--axis", "X1", *OPTIONS).stdout)
     assert document["unit"] == "A"
-    assert len(document["speeds"]) == 2
+    assert [round(1e3 * speed["speed"]) for speed in document["speeds"]] == [3, 18, 20, 50]
+    assert [speed["backward"] is None for speed in document["speeds"]] == [False, False, False, True]
     low, high = document["speed_exponent"]["interval"]
     assert 0 < low < document["speed_exponent"]["value"] < high < 1
 

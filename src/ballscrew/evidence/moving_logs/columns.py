@@ -89,9 +89,19 @@ def moving_layout(path: Path, records: Sequence[Record], flags: Mapping[str, str
 
     Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
-    result = layout(path, records, flags, MOVING_LOG, () if has_time else ("time",))
+    try:
+        result = layout(path, records, flags, MOVING_LOG, () if has_time else ("time",))
+    except InputError as error:
+        raise InputError(*[_or_period(fault) for fault in error.faults]) from None
     _check_needed(path, result.headings)
     return result
+
+
+def _or_period(fault: Fault) -> Fault:
+    """The fault with the option that stands in for a column of time."""
+    if fault.id != NO_COLUMN or fault.column != "time":
+        return fault
+    return dataclasses.replace(fault, remedy=f'{fault.remedy}; where rows follow at a fixed period: --period "0.1 s"')
 
 
 def headings_of_axis(records: Sequence[Record], axis: str) -> list[Record]:

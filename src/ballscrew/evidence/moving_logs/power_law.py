@@ -191,35 +191,40 @@ def _choices(equation: Equation, sides: Floats) -> dict[str, float]:
 LEAST_ROWS, STEADY = 4, 0.05
 #: The speed of a stretch is so many times the step in which speeds are written, or more.
 RESOLVED = 10.0
-#: Stretches whose speeds differ by no more than this share are of one speed.
-SAME_SPEED = 0.15
+#: Stretches are of one speed while the next faster differs by no more than this share.
+SAME_SPEED = 0.05
 #: Speeds tell an exponent if the fastest is so many times the slowest.
 WIDE = 3.0
 #: Half of a 95 % interval over the standard error.
 _QUANTILE = 1.96
+#: Mean speed, mean force and rows of a stretch at nearly constant speed.
+Stretch = tuple[float, float, int]
 
 
 @dataclasses.dataclass(frozen=True)
 class SteadySpeed:
-    """The drive at one speed: friction is half the difference of the two directions, the offset half their sum."""
+    """The drive at one speed: friction is half the difference of the two directions, the offset half their sum.
+
+    Where the log has one direction of this speed alone, the other is NaN, and friction is what is left of the drive
+    without the ``offset`` of the other speeds: gravity and the zero error do not depend on the speed.
+    """
 
     speed: float
     forward: float
     backward: float
+    #: Force that both directions need alike.
+    friction: float
     #: Standard error of the friction, by the scatter of the stretches.
     std: float
+    #: Force that one direction needs more than the other: gravity, and the zero error.
+    offset: float
     rows: int
     stretches: int
 
     @property
-    def friction(self) -> float:
-        """Force that both directions need alike."""
-        return (self.forward - self.backward) / 2
-
-    @property
-    def offset(self) -> float:
-        """Force that one direction needs more than the other: gravity, and the zero error."""
-        return (self.forward + self.backward) / 2
+    def is_one_way(self) -> bool:
+        """Whether one direction alone was logged at this speed."""
+        return math.isnan(self.forward + self.backward)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -241,7 +246,7 @@ def steady_friction(*logs: MovingLog) -> SteadyFriction:
     Raises :class:`~ballscrew.basis.errors.InputError` for a log without a speed, or without such rows in both
     directions.
     """
-    stretches: list[tuple[float, float, int]] = []
+    stretches: list[Stretch] = []
     resolution, name = 0.0, "log"
     for log in logs:
         name = log.source[0] if log.source else "log"
@@ -252,22 +257,22 @@ def steady_friction(*logs: MovingLog) -> SteadyFriction:
         step = float(np.min(steps[steps > 0], initial=np.inf))
         stretches += _stretches(speed, np.asarray(log.force, dtype=float), RESOLVED * step)
         resolution = max(resolution, step)
-    speeds: list[SteadySpeed] = []
-    while stretches:
-        slowest = min(abs(one[0]) for one in stretches)
-        near = [one for one in stretches if abs(one[0]) <= slowest * (1 + SAME_SPEED)]
-        stretches = [one for one in stretches if one not in near]
-        if (steady := _at_one_speed(near)) is not None:
-            speeds.append(steady)
-    if not speeds:
+    groups = _of_one_speed(stretches)
+    ways = [forces for near in groups for forces in _by_direction(near) if len(forces) > 1]
+    scatter = math.sqrt(sum(np.var(forces) * len(forces) for forces in ways) / max(sum(len(f) - 1 for f in ways), 1))
+    both_ways = [speed for near in groups if (speed := _at_one_speed(near, scatter)) is not None]
+    if not both_ways or not ways:
         remedy = "record strokes at constant speed in both directions"
         raise InputError(Fault(name, "has no rows at constant speed in both directions", "", remedy))
+    stds = [speed.std for speed in both_ways]
+    offset = (float(np.mean([speed.offset for speed in both_ways])), math.hypot(*stds) / len(stds))
+    speeds = [speed for near in groups if (speed := _at_one_speed(near, scatter, offset)) is not None]
     return SteadyFriction(speeds, *_exponent(speeds), resolution)
 
 
-def _stretches(speed: Floats, force: Floats, slowest: float) -> list[tuple[float, float, int]]:
+def _stretches(speed: Floats, force: Floats, slowest: float) -> list[Stretch]:
     """Mean speed, mean force and rows of each stretch at nearly constant speed; its first and last row do not count."""
-    stretches: list[tuple[float, float, int]] = []
+    stretches: list[Stretch] = []
     start = 0
     for row in range(1, speed.size + 1):
         mean = float(np.mean(speed[start:row]))
@@ -280,18 +285,51 @@ def _stretches(speed: Floats, force: Floats, slowest: float) -> list[tuple[float
     return stretches
 
 
-def _at_one_speed(near: Sequence[tuple[float, float, int]]) -> SteadySpeed | None:
-    """The drive at the speed of some stretches; None unless two or more are of each direction."""
-    forward = [force for speed, force, _ in near if speed > 0]
-    backward = [force for speed, force, _ in near if speed < 0]
-    if min(len(forward), len(backward)) < 2:
+def _of_one_speed(stretches: Sequence[Stretch]) -> list[list[Stretch]]:
+    """The stretches by speed: a new one begins where the next faster is faster by more than :data:`SAME_SPEED`."""
+    groups: list[list[Stretch]] = []
+    for stretch in sorted(stretches, key=lambda stretch: abs(stretch[0])):
+        if groups and abs(stretch[0]) <= abs(groups[-1][-1][0]) * (1 + SAME_SPEED):
+            groups[-1].append(stretch)
+        else:
+            groups.append([stretch])
+    return groups
+
+
+def _by_direction(near: Sequence[Stretch]) -> tuple[list[float], list[float]]:
+    """Forces of the stretches forward, and of those backward."""
+    return [force for speed, force, _ in near if speed > 0], [force for speed, force, _ in near if speed < 0]
+
+
+def _at_one_speed(
+    near: Sequence[Stretch], scatter: float, known_offset: tuple[float, float] | None = None
+) -> SteadySpeed | None:
+    """The drive at the speed of some stretches; a single one has the ``scatter`` of those at all speeds.
+
+    None where one direction is missing and no offset is known, with its standard error.
+    """
+    ways = _by_direction(near)
+    forward, backward = (float(np.mean(forces)) if forces else math.nan for forces in ways)
+    errors = [
+        (float(np.std(forces, ddof=1)) if len(forces) > 1 else scatter) / math.sqrt(len(forces))
+        for forces in ways
+        if forces
+    ]
+    if len(errors) == 2:
+        friction, offset, std = (forward - backward) / 2, (forward + backward) / 2, math.hypot(*errors) / 2
+    elif known_offset is not None:
+        offset = known_offset[0]
+        friction = offset - backward if math.isnan(forward) else forward - offset
+        std = math.hypot(*errors, known_offset[1])
+    else:
         return None
-    errors = [float(np.std(one, ddof=1)) / np.sqrt(len(one)) for one in (forward, backward)]
     return SteadySpeed(
-        speed=float(np.mean([abs(speed) for speed, *_ in near])),
-        forward=float(np.mean(forward)),
-        backward=float(np.mean(backward)),
-        std=float(np.hypot(*errors)) / 2,
+        float(np.mean([abs(speed) for speed, *_ in near])),
+        forward,
+        backward,
+        friction,
+        std,
+        offset,
         rows=sum(rows for *_, rows in near),
         stretches=len(near),
     )

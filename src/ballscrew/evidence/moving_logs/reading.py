@@ -54,18 +54,18 @@ def read_moving(
     usual_gain: float | None = None,
     axis: str = "",
     period: float | None = None,
-    in_amperes: bool = False,
+    steady: bool = False,
     keep_going: bool = False,
 ) -> MovingLog:
     """The moving log of a file, in SI and not yet checked; its force is that at the nut without friction.
 
     A torque becomes a force by the ``lead`` (m), a current by the ``torque_constant`` (N m/A) as well, a control
     voltage by the ``gain`` (N/V), which the channel ``gtau`` of the EMPS benchmark gives; ``usual_gain`` holds where
-    neither does. A power becomes one over the ``speed``, where that is logged and beyond a twentieth of its largest:
-    it has the heat of the motor in it. ``axis`` begins the headings of one axis of several (``X1``), in the units of
-    controllers where they have none, mm, mm/s, A and kW; ``period`` (s) is the time between rows of a log without one.
-    A current whose torque constant is not known may stay one, ``in_amperes``. ``columns`` says which heading a column
-    has, and its unit: ``{"position": "x_ist [mm]"}``.
+    neither does. Where rows at constant speed alone count (``steady``), a current may stay one without a torque
+    constant, and a power becomes a force over the ``speed``, beyond a twentieth of its largest: it has the heat of the
+    motor in it. ``axis`` begins the headings of one axis of several (``X1``), in the units of controllers where they
+    have none, mm, mm/s, A and kW; ``period`` (s) is the time between rows of a log without one.
+    ``columns`` says which heading a column has, and its unit: ``{"position": "x_ist [mm]"}``.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for faults of the file, and for cells that are no numbers; with
     ``keep_going`` these count as missing.
@@ -82,7 +82,11 @@ def read_moving(
         values[~within_bounds(QUANTITIES[name].info, values)] = np.nan
     raise_if_any(_empty(path.name, result))
     known = next(one for one in (gain, own_gain, usual_gain, math.nan) if one is not None)
-    in_amperes = in_amperes and torque_constant is None and next(name for name in FORCES if name in result) == "current"
+    drive = next(name for name in FORCES if name in result)
+    if drive == "power" and not steady:
+        remedy = "--steady, or a log of the current"
+        raise InputError(Fault(f"{path.name} column power", "tells no force where the axis turns round", "", remedy))
+    in_amperes = steady and torque_constant is None and drive == "current"
     force = result["current"] if in_amperes else _force(path.name, result, lead, torque_constant, known)
     return MovingLog(
         result["time"],

@@ -83,7 +83,7 @@ def moving_log(case: Case, path: Path, options: FitMotionOptions, usual_gain: fl
         usual_gain=usual_gain,
         axis=options.axis,
         period=options.period,
-        in_amperes=options.steady,
+        steady=options.steady,
         keep_going=options.keep_going,
     )
 

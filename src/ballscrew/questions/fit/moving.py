@@ -409,13 +409,14 @@ def sheet_over_speed(friction: SteadyFriction, log: MovingLog) -> Sheet:
     if not math.isnan(low):
         exponent = f"friction as the speed to the power of {friction.exponent:.2f} ({low:.2f} to {high:.2f})"
     speeds, values = ([getattr(one, name) for one in friction.speeds] for name in ("speed", "friction"))
+    remarks = [exponent, f"speeds are written in steps of {1e3 * friction.resolution:.3g} mm/s", *log.notes]
+    if any(speed.is_one_way for speed in friction.speeds):
+        remarks.insert(0, "where a direction is missing, friction is the drive without the offset of the other speeds")
     return Sheet(
         f"{(log.source or ('log', ''))[0]}: friction at constant speed",
         [
             Table("speeds", "Drive at constant speed", headings, rows),
-            lines(
-                [exponent, f"speeds are written in steps of {1e3 * friction.resolution:.3g} mm/s", *log.notes], "small"
-            ),
+            lines(remarks, "small"),
             Chart(
                 "friction over speed",
                 Axis("speed", _SPEED),
