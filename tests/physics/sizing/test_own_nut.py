@@ -99,6 +99,67 @@ def test_balls_that_are_printed_help_and_stay():
     assert [row.ball_diameter_source for row in result[1::2]] == [""] * 7
 
 
+# -- the ball of a make ------------------------------------------------------------------------------
+
+GROUND = [row for row in catalogue().values() if not row.refusal and not row.family.endswith("rolled")]
+GROOVES = sorted({own_nut._groove(row) for row in GROUND})  # private: rows of one groove, as the table has them
+
+
+def told_of_other_grooves(grooves, **unknown):
+    """Rows told and rows told right, each by the rows of other grooves; the row has no make."""
+    told = []
+    for groove in grooves:
+        makes = own_nut.makes_of(row for row in GROUND if own_nut._groove(row) != groove)
+        for row in (row for row in GROUND if own_nut._groove(row) == groove):
+            made = own_nut.ball_of_make(dataclasses.replace(row, make="", **unknown), makes)
+            told += [] if made is None else [abs(made.ball.value / row.ball_diameter - 1) < 0.012]
+    return len(told), sum(told)
+
+
+@pytest.mark.slow
+def test_a_make_tells_the_balls_of_other_grooves():
+    """The numbers that the estimate states; without pitch circle and root nearly as many."""
+    assert told_of_other_grooves(GROOVES) == (441, 440)
+    assert f"of {len(GROUND)} rows of three catalogues 441 are told" in own_nut.BY_MAKE
+    assert told_of_other_grooves(GROOVES, pitch_circle_diameter=None, root_diameter=None) == (438, 435)
+
+
+def test_a_make_tells_the_balls_of_some_other_grooves():
+    told, right = told_of_other_grooves(GROOVES[::12])
+    assert told == right > 20
+
+
+def test_a_make_tells_the_balls_of_stocked_nuts():
+    """Of a list that makes are not told by, whose circuits of 2.5 turns are rated as another maker's are."""
+    makes = own_nut.makes_of(GROUND)
+    rows = [row for row in STOCK if row.static_load_rating is not None]
+    made = [(own_nut.ball_of_make(row, makes), row.ball_diameter) for row in rows]
+    told = [found.ball.value / ball for found, ball in made if found is not None]
+    assert len(told) >= 10
+    assert told == pytest.approx([1.0] * len(told), rel=0.012)
+
+
+def test_numbers_that_are_as_a_make_has_them():
+    """BNFN4010-5 of THK: no ball is printed, all turns carry, and the rating by the geometry is the one listed."""
+    numbers = {"nominal_diameter": 0.04, "lead": 0.01, "turns": 5, "dynamic_load_rating": 52.7e3}
+    made = bs.own_nut(**numbers, static_load_rating=141.1e3)
+    ball, circle = estimate(made, "ball_diameter"), estimate(made, "ball_circle")
+    assert (ball.value, ball.source) == (6.35e-3, own_nut.BY_MAKE + "THK")
+    assert circle.value == pytest.approx(0.04175, abs=2e-4)
+    assert made.row.turns_without_load == 0.0
+    assert ratings_of(made.row).dynamic == pytest.approx(52.7e3, rel=0.03)
+    # without the static rating, and with one that nothing has, the ball is of any size
+    for odd in ({}, {"static_load_rating": 90e3}):
+        assert estimate(bs.own_nut(**numbers, **odd), "ball_diameter").source == own_nut.BY_RATING
+
+
+def test_a_make_that_is_given_alone_counts():
+    row = dataclasses.replace(catalogue()["rexroth-40x10x6-6-double"], make="THK")
+    makes = own_nut.makes_of(GROUND)
+    assert own_nut.ball_of_make(dataclasses.replace(row, make="rexroth"), makes).ball.value == 6e-3
+    assert own_nut.ball_of_make(row, makes) is None
+
+
 # -- the ball ----------------------------------------------------------------------------------------
 
 

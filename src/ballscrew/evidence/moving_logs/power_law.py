@@ -260,13 +260,13 @@ def steady_friction(*logs: MovingLog) -> SteadyFriction:
     groups = _of_one_speed(stretches)
     ways = [forces for near in groups for forces in _by_direction(near) if len(forces) > 1]
     scatter = math.sqrt(sum(np.var(forces) * len(forces) for forces in ways) / max(sum(len(f) - 1 for f in ways), 1))
-    both_ways = [speed for near in groups if (speed := _at_one_speed(near, scatter)) is not None]
+    both_ways = [one for near in groups if (one := _at_one_speed(near, scatter)) is not None]
     if not both_ways or not ways:
         remedy = "record strokes at constant speed in both directions"
         raise InputError(Fault(name, "has no rows at constant speed in both directions", "", remedy))
-    stds = [speed.std for speed in both_ways]
-    offset = (float(np.mean([speed.offset for speed in both_ways])), math.hypot(*stds) / len(stds))
-    speeds = [speed for near in groups if (speed := _at_one_speed(near, scatter, offset)) is not None]
+    stds = [one.std for one in both_ways]
+    offset = (float(np.mean([one.offset for one in both_ways])), math.hypot(*stds) / len(stds))
+    speeds = [one for near in groups if (one := _at_one_speed(near, scatter, offset)) is not None]
     return SteadyFriction(speeds, *_exponent(speeds), resolution)
 
 

@@ -1,14 +1,16 @@
 """A nut from the few numbers that a catalogue prints: the row that they make, what is estimated in it, and how well.
 
-Balls of a table that prints none: of those that are made, the ones that go with the ratings of all its rows.
+Where both load ratings are printed, the balls are those with which a maker of the catalogue shipped would state both.
+Balls of a table of another maker: of those that are made, the ones that go with the ratings of all its rows.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +35,13 @@ from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.laws.nut_losses import Seals, seal_table
-from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, SMALLEST_BALL, CatalogueRow
+from ballscrew.physics.sizing.catalogue import (
+    CONFORMITY_DOUBT,
+    SMALLEST_BALL,
+    TURNS_WITHOUT_LOAD,
+    CatalogueRow,
+    catalogue,
+)
 from ballscrew.physics.sizing.ratings import RatedGeometry, Ratings, ratings_of
 from ballscrew.physics.solvers.swelling import ball_of_rating
 
@@ -78,6 +86,7 @@ BY_RULE = (
     "the others; give the ball diameter or the dynamic load rating"
 )
 BY_NOMINAL = "as large as the nominal diameter; those that catalogues list are mostly 1.5 to 5 % larger"
+BY_BALL = "as much larger than the nominal diameter as with such balls of this maker"
 BY_ROOT = "from the diameter at the bottom of the groove, good to about 0.01"
 BY_DEFAULT = "most root diameters of a catalogue imply 0.54, some 0.56; good to about 0.01"
 BY_HABIT = "the usual value; no catalogue consulted prints it"
@@ -182,8 +191,11 @@ def completed(listed: Mapping[str, Any]) -> OwnNut:
     fields: dict[str, Any] = dict(listed)
     if "ball_diameter" not in fields:
         start = _of_any_ball(fields)
-        ball, odd = _ball(start)
+        as_of_make = ball_of_make(start, _makes_shipped())
+        ball, odd = _ball(start) if as_of_make is None else (as_of_make.ball, [])
         fields |= {"ball_diameter": ball.value, "ball_diameter_source": ball.source}
+        if as_of_make is not None:
+            fields |= as_of_make.fields
         estimates.append(ball)
         warnings += odd
     row = CatalogueRow(**fields)
@@ -192,8 +204,10 @@ def completed(listed: Mapping[str, Any]) -> OwnNut:
         warnings += odd_ratings(
             {name: value for name in RATED if (value := getattr(row, name)) is not None}, ratings_of(row)
         )
-    if row.pitch_circle_diameter is None:
-        estimates.append(_within("ball_circle", row.ball_circle, PITCH_CIRCLES, BY_NOMINAL))
+    if listed.get("pitch_circle_diameter") is None:
+        low, high = (share * row.nominal_diameter for share in PITCH_CIRCLES)
+        source = BY_NOMINAL if row.pitch_circle_diameter is None else BY_BALL
+        estimates.append(Estimate("ball_circle", row.ball_circle, low, high, source))
     if "conformity" not in fields:
         conformity, odd = _conformity(row, is_listed={"ball_diameter", "root_diameter"} <= listed.keys())
         row = dataclasses.replace(row, conformity=conformity.value)
@@ -363,9 +377,15 @@ def _balls(row: CatalogueRow, ball: Estimate | None) -> Estimate:
         low, high = low * ball.value / ball.high, high * ball.value / ball.low
     source = (
         f"whole balls that find room in a turn, {units.number(row.balls_per_turn)}, times "
-        f"{units.number(row.loaded_turns)} of {units.number(row.turns)} turns: 0.24 turns without load fit the "
-        "ratings of nuts with long circuits; those of circuits of 2.5 turns fit 23 % fewer balls"
+        f"{units.number(row.loaded_turns)} of {units.number(row.turns)} turns: "
     )
+    if ball is not None and ball.source.startswith(BY_MAKE):
+        source += "so many carry load in nuts with such ratings"
+    else:
+        source += (
+            "0.24 turns without load fit the ratings of nuts with long circuits; those of circuits of 2.5 turns fit "
+            "23 % fewer balls"
+        )
     return Estimate("loaded_balls", row.loaded_balls, min(math.floor(low), row.loaded_balls), math.ceil(high), source)
 
 
@@ -374,6 +394,146 @@ def _warning(subject: str, value: float, message: str, limit: float | None = Non
 
 
 _Numbers: TypeAlias = NDArray[np.float64]
+
+#: A row is as a maker has them if it is no farther from its usual ratios, in squares of their scatter; another ball is
+#: told apart by so much, as -2 times the logarithm of the likelihood.
+_NO_FARTHER, _APART = 12.0, 6.0
+#: Scatter of the ratios of a maker, at least; rows that tell one, at least.
+_LEAST_SCATTER, _LEAST_ROWS = 0.012, 4
+#: Depth of a groove, from pitch circle to root as catalogues print them, over the ball.
+_DEPTHS = (1.0, 1.26)
+#: True ball over that of a maker: 3.969 and 4 mm, 9.525 and 9.5 mm count as one.
+MAKE_BAND = (0.988, 1.012)
+BY_MAKE = (
+    "the ball with which both load ratings are as usual for this maker: of 545 rows of three catalogues 441 are told "
+    "by rows of other grooves, 440 of them right; as "
+)
+
+
+class Make(NamedTuple):
+    """Nuts of one make and one kind of return: how their listed ratings are to those of ISO 3408-5, and their balls."""
+
+    name: str
+    #: Conformity that the ratings follow from; turns of a nut, and share of each turn, that carry no load.
+    conformity: Ratio
+    idle: tuple[Ratio, Ratio]
+    #: Medians of the logarithms of listed over computed rating, dynamic and static, and their scatter.
+    ratios: _Numbers
+    scatter: _Numbers
+    rows: int
+    balls: _Numbers
+    #: Median of what the pitch circle is larger than the nominal diameter by, over the ball; 0 where none is printed.
+    circle: Ratio
+
+
+class MadeBall(NamedTuple):
+    """The ball of a nut that is as those of a make, and the fields of its row that go with that."""
+
+    ball: Estimate
+    fields: Mapping[str, float]
+
+
+class _Likely(NamedTuple):
+    """A ball of a make for a row: -2 times the logarithm of its likelihood, and its distance from the usual ratios."""
+
+    cost: float
+    square: float
+    ball: Length
+    make: Make
+
+
+def makes_of(rows: Iterable[CatalogueRow]) -> list[Make]:
+    """The makes of ``rows`` with both ratings; without rolled screws and nuts that no torque is computed of."""
+    groups: dict[tuple[str, Ratio, Ratio, Ratio], list[CatalogueRow]] = {}
+    for row in rows:
+        is_rated = row.dynamic_load_rating is not None and row.static_load_rating is not None
+        if is_rated and not row.refusal and not row.family.endswith("rolled"):
+            groups.setdefault((row.make, row.rating_conformity, *_idle_of(row)), []).append(row)
+    return [_make(*like, group) for like, group in groups.items() if len(group) >= _LEAST_ROWS]
+
+
+def _make(name: str, conformity: Ratio, idle_turns: Ratio, idle_of_a_turn: Ratio, rows: Sequence[CatalogueRow]) -> Make:
+    idle = (idle_turns, idle_of_a_turn)
+    ratios = np.array([_ratios(row, row.ball_diameter, row.ball_circle, conformity, idle) for row in rows])
+    median: _Numbers = np.median(ratios, axis=0)
+    # of the middle half, which no odd row moves; 1.48 times that is the standard deviation of a normal distribution
+    scatter: _Numbers = np.maximum(1.48 * np.median(np.abs(ratios - median), axis=0), _LEAST_SCATTER)
+    larger = [(row.ball_circle - row.nominal_diameter) / row.ball_diameter for row in rows]
+    balls: _Numbers = np.unique([row.ball_diameter for row in rows])
+    return Make(name, conformity, idle, median, scatter, len(rows), balls, float(np.median(larger)))
+
+
+@functools.cache
+def _makes_shipped() -> list[Make]:
+    return makes_of(catalogue().values())
+
+
+def ball_of_make(row: CatalogueRow, makes: Iterable[Make]) -> MadeBall | None:
+    """The ball of a row as one of the makes would have it; None where none or more than one ball is likely.
+
+    The ball of the row plays no part. Where it has the make, that alone counts.
+    """
+    if row.dynamic_load_rating is None or row.static_load_rating is None:
+        return None
+    likely = [one for make in makes if _may_be(row, make) for one in _likely(row, make)]
+    if not likely:
+        return None
+    best = min(likely, key=lambda one: one.cost)
+    others = [one.cost for one in likely if abs(one.ball / best.ball - 1) > _SAME]
+    if best.square > _NO_FARTHER or min(others, default=math.inf) < best.cost + _APART:
+        return None
+    make, ball = best.make, best.ball
+    fields = {
+        "turns_without_load": make.idle[0] + make.idle[1] * row.turns,
+        "rating_conformity": make.conformity,
+    }
+    if row.pitch_circle_diameter is None and make.circle:
+        fields["pitch_circle_diameter"] = round(row.nominal_diameter + make.circle * ball, _WHOLE_MICROMETRES)
+    return MadeBall(_within("ball_diameter", ball, MAKE_BAND, BY_MAKE + make.name), fields)
+
+
+def _may_be(row: CatalogueRow, make: Make) -> bool:
+    """Test whether a row may be of a make: of its name, and of whole turns where each returns its balls."""
+    return (not row.make or row.make.casefold() == make.name.casefold()) and not (make.idle[1] and row.turns % 1)
+
+
+def _likely(row: CatalogueRow, make: Make) -> list[_Likely]:
+    """The balls of a make that a nut of this size may have."""
+    low, high = (share * row.nominal_diameter for share in BALLS_PER_DIAMETER)
+    balls = make.balls[(low <= make.balls) & (make.balls <= min(high, _OF_PITCH * row.lead / row.starts))]
+    if row.pitch_circle_diameter is not None and row.root_diameter is not None:
+        depths = (row.pitch_circle_diameter - row.root_diameter) / balls
+        balls = balls[(_DEPTHS[0] <= depths) & (depths <= _DEPTHS[1])]
+    circles: Any = row.pitch_circle_diameter or row.nominal_diameter + make.circle * balls
+    over = (_ratios(row, balls, circles, make.conformity, make.idle) - make.ratios) / make.scatter
+    squares = np.sum(over**2, axis=-1)
+    # a make of many rows is the likelier one
+    costs = squares + 2 * math.log(float(np.prod(make.scatter)) / make.rows)
+    return [
+        _Likely(cost, square, ball, make)
+        for cost, square, ball in zip(costs.tolist(), squares.tolist(), balls.tolist(), strict=True)
+    ]
+
+
+def _idle_of(row: CatalogueRow) -> tuple[Ratio, Ratio]:
+    """Turns without load of a nut, and of each turn where every turn is a circuit of its own."""
+    if row.turns_without_load in (0.0, TURNS_WITHOUT_LOAD):
+        return row.turns_without_load, 0.0
+    return 0.0, round(row.turns_without_load / row.turns, _DIGITS)
+
+
+def _ratios(row: CatalogueRow, balls: Any, circles: Any, conformity: Ratio, idle: tuple[Ratio, Ratio]) -> _Numbers:
+    """Logarithms of listed over computed rating, dynamic and static along the last axis, of balls and pitch circles."""
+    angle: Any = geometry.lead_angle(row.lead, circles)
+    in_a_turn: Any = np.floor(np.pi * circles / balls / np.cos(angle))
+    turns = row.turns * (1 - idle[1]) - idle[0]
+    spacers = bool(row.spacer_balls)
+    computed = ratings_of(
+        RatedGeometry(circles, balls, row.contact_angle, angle, in_a_turn, turns, spacers, conformity)
+    )
+    listed: Any = (row.dynamic_load_rating, row.static_load_rating)
+    return np.log(np.stack([stated / rating for stated, rating in zip(listed, computed, strict=True)], axis=-1))
+
 
 #: Balls that are made: of multiples of 1/32 in. (below 2 mm of 1/64 in.), and of half millimetres, m.
 _INCHES = 0.0254 * np.array([1 / 32, 3 / 64, 1 / 16, 5 / 64, *np.arange(3, 32) / 32])
