@@ -1,9 +1,8 @@
 """The commands of a page, and what they print.
 
 The commands of a page run in one folder, one after the other, with the examples in it: a later one finds what an
-earlier one wrote. What they print is kept under ``out/pages/commands`` with the files of the program and of the
-examples that the command, and all commands before it on the page, have read (``kept.py``). So only what may have
-changed is run again.
+earlier one wrote. What they print is kept under ``out/pages/commands`` (``kept.py``): they run again only where a file
+has changed.
 """
 
 from __future__ import annotations
@@ -23,8 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import kept
-import reads
-from kept import ROOT, Kept
+from kept import ROOT, Kept, Record
 
 HERE = Path(__file__).parent
 DOCS = ROOT / "docs"
@@ -40,36 +38,31 @@ WIDTH, WIDEST = "100", 98
 class Page:
     """The commands of one page so far, and the folder they run in."""
 
-    def __init__(self, name: str, files: kept.Files) -> None:
+    def __init__(self, name: str, root: Path = ROOT) -> None:
         self.folder = KEPT / name.replace("/", "-")
         self.place: Path | None = None
-        self._kept = Kept(KEPT, files)
-        #: All commands so far, and what they have read.
+        self._kept = Kept(KEPT, root)
+        #: All commands so far.
         self.typed: list[str] = []
-        self.read: set[str] = set()
         #: Commands whose output was kept; they run only if a later command needs their files.
         self.waiting: list[str] = []
 
     def said(self, typed: str, keep: list[str]) -> str:
         """The output of the next command, and the files to keep; kept, or made now."""
         self.typed.append(typed)
-        record = self._kept.found(self._cause(keep))
+        what = (WIDTH, *self.typed, "kept:", *keep)
+        record = self._kept.find(*what)
         if record is not None and record.made == self._digests(keep):
             self.waiting.append(typed)
-        else:
-            for earlier in self.waiting:
-                self._done(earlier)
-            self.waiting.clear()
-            said = self._done(typed)
-            self.folder.mkdir(parents=True, exist_ok=True)
-            for name in keep:
-                shutil.copy(self._place() / name, self.folder)
-            record = self._kept.keep(self._cause(keep), said, self._digests(keep), self.read)
-        self.read |= set(record.read)
-        return record.said
-
-    def _cause(self, keep: list[str]) -> str:
-        return self._kept.cause(WIDTH, *self.typed, "kept:", *keep)
+            return record.said
+        for earlier in self.waiting:
+            self._done(earlier)
+        self.waiting.clear()
+        said = self._done(typed)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        for name in keep:
+            shutil.copy(self._place() / name, self.folder)
+        return self._kept.keep(Record(said, self._digests(keep)), *what).said
 
     def _digests(self, keep: list[str]) -> dict[str, str]:
         return {name: kept.digest_of(self.folder / Path(name).name) for name in keep}
@@ -86,12 +79,10 @@ class Page:
         words = shlex.split(typed)
         if words[0] == PROGRAM and not _SHELL.search(typed):
             environment = {"COLUMNS": WIDTH, "NO_COLOR": "1"}
-            code, said, heard = kept.run(program_at_hand(), MODULE, words[1:], self._place(), environment)
+            code, said = program_at_hand().together(words[1:], self._place(), environment, MODULE)
             said = said.replace(f"python -m {MODULE}", "ballscrew")
-            self.read |= self._kept.files.of_repository(heard, {f"{self._place()}/examples": f"{ROOT}/examples"})
         else:
             code, said = self._by_shell(typed)
-            self.read.add(reads.EVERYTHING)
         if code:
             raise RuntimeError(f"{typed}\nended with {code}\n{said}")
         said = said.replace(f"{self._place()}/", "")  # the same wherever it runs

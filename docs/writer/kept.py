@@ -1,9 +1,8 @@
-"""What a program made, kept with the files that it read: it is made again only if one of them has changed.
+"""What a program made, kept under a digest of the files that it may depend on: it is made again if one has changed.
 
-A record is found by its cause: what was run, on which Python with which libraries, and the names of all data files (to
-look for a file that is not there is not heard). It holds as long as all that was read is as it was.
-
-Files are read once, before anything runs: what changes meanwhile is another file to the next build.
+All files count for all programs, but for pages, figures and tests. The digest of all files without exception is a stamp
+that is committed with the pages: where it still holds, programs make what pages have, and ``.ci/run`` need not run them
+again, which takes minutes.
 """
 
 from __future__ import annotations
@@ -12,149 +11,63 @@ import dataclasses
 import functools
 import hashlib
 import json
+import re
+import secrets
+import subprocess
 import sys
 import sysconfig
-import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
-
-import reads
 
 ROOT = Path(__file__).parents[2]
-#: Folders whose files are read before anything runs, and what in the repository is made, not read.
-SOURCES = "src", "examples", "docs", "benchmarks", "tests"
-MADE = ".git", ".venv", "out", "docs/figures"
-#: What runs programs and keeps their output.
-HERE = (
-    *(f"docs/writer/{name}.py" for name in ("command", "kept", "libraries", "reads", "recorded")),
-    "tests/support/commands.py",
-    "tests/support/fork_server.py",
-)
+STAMP = Path("docs", "figures", "stamp.txt")
+#: Files that no program reads for a page: what is written into pages, and the tests that only look.
+_READ_BY_NONE = re.compile(r".*\.md|docs/(figures|images)/.*|tests/(?!support/|data/|oracles/).*")
 
 
-class Files:
-    """Digests of the files below a folder, as they are now."""
+def digest(root: Path = ROOT, *, of_programs: bool = False) -> str:
+    """Digest of all files of the repository, also of those to be committed, or of those that programs read.
 
-    def __init__(self, root: Path = ROOT) -> None:
-        self.root = root
-        self._digests: dict[str, str] = {}
-        for folder in SOURCES:
-            for path in self._below(root / folder):
-                self.digest(path.relative_to(root).as_posix())
+    Empty where git does not know them.
+    """
+    listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    try:
+        names = subprocess.run(listed, cwd=root, capture_output=True, check=True, encoding="utf-8").stdout.split("\0")
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    whole = hashlib.blake2b(digest_size=16)
+    for name in sorted({*names} - {"", STAMP.as_posix()}):
+        path = root / name
+        # not deleted, nor a folder that is linked to
+        if path.is_file() and not (of_programs and _READ_BY_NONE.fullmatch(name)):
+            content = path.read_bytes()
+            whole.update(f"{name}\0{len(content)}\0".encode() + content)
+    return whole.hexdigest()
 
-    def _below(self, folder: Path) -> Iterator[Path]:
-        if not folder.is_dir():
-            return
-        for path in sorted(folder.iterdir()):
-            if path.name == "__pycache__" or path.relative_to(self.root).as_posix() in MADE:
-                continue
-            if path.suffix == ".md" and self.root / "docs" in path.parents:
-                continue  # what commands and parts are written into
-            if path.is_dir():
-                yield from self._below(path)
-            yield path
 
-    def digest(self, name: str) -> str:
-        """Digest of the content of a file, of the names in a folder, or of all files."""
-        if name not in self._digests:
-            self._digests[name] = self._digest(name)
-        return self._digests[name]
+def stamp_holds(root: Path = ROOT) -> bool:
+    """Whether nothing has changed since the pages were written."""
+    path = root / STAMP
+    return path.is_file() and path.read_text(encoding="utf-8").strip() == digest(root) != ""
 
-    def _digest(self, name: str) -> str:
-        if name == reads.EVERYTHING:
-            return _hash(json.dumps(sorted(self._digests.items())).encode())
-        path = self.root / name.removesuffix(reads.FOR_MODULES)
-        if path.is_file():
-            return _hash(path.read_bytes())
-        if not path.is_dir():
-            return "none"
-        names = [one.name for one in path.iterdir() if one.name not in ("__pycache__", "generated")]
-        if name.endswith(reads.FOR_MODULES):
-            names = [one for one in names if "." not in one or one.endswith((".py", ".so", "-info"))]
-        return _hash("\n".join(sorted(names)).encode())
 
-    def digests(self, names: Iterable[str]) -> dict[str, str]:
-        """Digests by name."""
-        return {name: self.digest(name) for name in sorted(names)}
+def stamp(root: Path = ROOT) -> None:
+    """Write the stamp: programs make what pages have."""
+    if whole := digest(root):
+        (root / STAMP).write_text(f"{whole}\n", encoding="utf-8")
 
-    def of_repository(self, heard: Iterable[str], places: Mapping[str, str]) -> set[str]:
-        """Names, relative to the repository, of what was read of it or of its copies, and not of what is made."""
-        found: set[str] = set()
-        for name in heard:
-            if name == reads.EVERYTHING:
-                found.add(name)
-                continue
-            for copy, original in places.items():
-                if name.startswith(f"{copy}/"):
-                    name = f"{original}{name.removeprefix(copy)}"
-            if not name.startswith(f"{self.root}/"):
-                continue
-            inside = name.removeprefix(f"{self.root}/")
-            if not any(f"{inside}/".startswith(f"{made}/") for made in MADE):
-                found.add(inside)
-        return found
 
-    @functools.cached_property
-    def cause(self) -> str:
-        """Digest of all that counts for every program."""
-        libraries = Path(sysconfig.get_path("purelib"))
-        data = [name for name in self._digests if name.startswith("examples/") or "/data/" in name]
-        return _hash(
-            json.dumps(
-                [
-                    sys.version,
-                    sorted(path.name for path in libraries.glob("*.dist-info")),
-                    sorted(data),
-                    self.digests(HERE),
-                ]
-            ).encode()
-        )
+@functools.cache
+def cause_of_all(root: Path = ROOT) -> str:
+    """What counts for every program, as this process found it: Python, its libraries, and the files."""
+    libraries = sorted(path.name for path in Path(sysconfig.get_path("purelib")).glob("*.dist-info"))
+    # where the files are not known, nothing made before counts
+    files = digest(root, of_programs=True) or secrets.token_hex()
+    return _hash(json.dumps([sys.version, libraries, files]).encode())
 
 
 def _hash(content: bytes) -> str:
     return hashlib.blake2b(content, digest_size=16).hexdigest()
-
-
-@dataclasses.dataclass(frozen=True)
-class Record:
-    """What was made: a text that was printed, or files by name with their digests; and what was read, with digests."""
-
-    said: str
-    made: Mapping[str, str]
-    read: Mapping[str, str]
-
-
-class Kept:
-    """Records in a folder, and the files that they are of."""
-
-    def __init__(self, folder: Path, files: Files) -> None:
-        self.folder, self.files = folder, files
-
-    def cause(self, *parts: str) -> str:
-        """The name of the record of what these words describe."""
-        return _hash(json.dumps([self.files.cause, *parts]).encode())
-
-    def found(self, cause: str) -> Record | None:
-        """The record, if all that was read is as it was then."""
-        try:
-            record = Record(**json.loads((self.folder / f"{cause}.json").read_text(encoding="utf-8")))
-        except (OSError, ValueError, TypeError):
-            return None
-        return record if all(self.files.digest(name) == then for name, then in record.read.items()) else None
-
-    def keep(self, cause: str, said: str, made: Mapping[str, str], read: Iterable[str]) -> Record:
-        """Write a record."""
-        record = Record(said, made, self.files.digests(read))
-        self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / f"{cause}.json").write_text(json.dumps(dataclasses.asdict(record)), encoding="utf-8")
-        return record
-
-
-@functools.cache
-def files() -> Files:
-    """The files of the repository as this process found them."""
-    return Files()
 
 
 def digest_of(path: Path) -> str:
@@ -162,11 +75,32 @@ def digest_of(path: Path) -> str:
     return _hash(path.read_bytes()) if path.is_file() else "none"
 
 
-def run(
-    commands: Any, module: str, arguments: Sequence[str], folder: Path, environment: Mapping[str, str]
-) -> tuple[int, str, set[str]]:
-    """Run a module in a fork: its exit code, what it printed, and the names of what it read."""
-    with tempfile.TemporaryDirectory(prefix="ballscrew-docs-") as place:
-        record = Path(place) / "reads"
-        code, said = commands.together([record, module, *arguments], folder, environment, module="recorded")
-        return code, said, reads.names(record.read_bytes()) if record.is_file() else {reads.EVERYTHING}
+@dataclasses.dataclass(frozen=True)
+class Record:
+    """What was made: a text that was printed, and files by name with their digests."""
+
+    said: str
+    made: Mapping[str, str]
+
+
+class Kept:
+    """Records in a folder, by what was run."""
+
+    def __init__(self, folder: Path, root: Path = ROOT) -> None:
+        self.folder, self._cause = folder, cause_of_all(root)
+
+    def _path(self, *what: str) -> Path:
+        return self.folder / f"{_hash(json.dumps([self._cause, *what]).encode())}.json"
+
+    def find(self, *what: str) -> Record | None:
+        """The record, if nothing has changed since."""
+        try:
+            return Record(**json.loads(self._path(*what).read_text(encoding="utf-8")))
+        except (OSError, ValueError, TypeError):
+            return None
+
+    def keep(self, record: Record, *what: str) -> Record:
+        """Write a record."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self._path(*what).write_text(json.dumps(dataclasses.asdict(record)), encoding="utf-8")
+        return record

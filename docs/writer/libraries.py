@@ -1,15 +1,12 @@
 """A process that has loaded libraries and the physics; its forks run the commands of pages and make generated parts.
 
-A fork loads questions, faces, exports and evidence by itself: what it has not loaded, its output does not depend on.
-What is loaded here counts for all.
+A fork loads questions, faces, exports and evidence by itself.
 """
 
 import contextlib
 import importlib
 import sys
 from pathlib import Path
-
-import reads
 
 LIBRARIES = (
     "emcee", "h5py", "httpx", "llvmlite.binding", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg",
@@ -35,7 +32,6 @@ def load() -> None:
 
 
 if __name__ == "__main__":
-    reads.listen()
     from support import fork_server
 
     load()

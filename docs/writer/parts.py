@@ -1,4 +1,4 @@
-"""Generated parts of pages: tables, figures and numbers, made again if a file that they depend on has changed."""
+"""Generated parts of pages: tables, figures and numbers, made again if a file has changed."""
 
 from __future__ import annotations
 
@@ -63,20 +63,19 @@ def numbers_of(name: str) -> str:
 class Part:
     """A part, and the record of what it was made from."""
 
-    def __init__(self, name: str, files: kept.Files) -> None:
-        self.name, self._kept = name, Kept(MADE / "kept", files)
-        self._cause = self._kept.cause("part", name, MAKERS[name])
+    def __init__(self, name: str) -> None:
+        self.name, self._kept, self._what = name, Kept(MADE / "kept"), ("part", name, MAKERS[name])
 
     def at_hand(self) -> Record | None:
         """The record, if it holds and all files are as they were made."""
-        record = self._kept.found(self._cause)
+        record = self._kept.find(*self._what)
         return record if record and all(kept.digest_of(MADE / n) == d for n, d in record.made.items()) else None
 
     def make(self) -> Record:
-        """Make it, and write down from what."""
+        """Make it, and write down what."""
         arguments = [str(MADE), self.name, MAKERS[self.name]]
         before = {path: path.stat().st_mtime_ns for path in self._there()}
-        code, said, heard = kept.run(command.program_at_hand(), "make_part", arguments, ROOT, {"COLUMNS": "100"})
+        code, said = command.program_at_hand().together(arguments, ROOT, {"COLUMNS": "100"}, "make_part")
         if code:
             raise RuntimeError(f"{self.name}: {MAKERS[self.name]} ended with {code}\n{said}")
         made = {
@@ -84,7 +83,7 @@ class Part:
             for path in self._there()
             if path.stat().st_mtime_ns != before.get(path)
         }
-        return self._kept.keep(self._cause, "", made, self._kept.files.of_repository(heard, {}))
+        return self._kept.keep(Record("", made), *self._what)
 
     def _there(self) -> list[Path]:
         target = MADE / self.name

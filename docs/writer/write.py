@@ -42,7 +42,6 @@ from typing import NamedTuple
 import compare
 import kept
 import sources
-import stamp
 from command import DOCS, MADE, Page, chosen, displayed
 from equation import as_markdown
 from kept import ROOT
@@ -145,9 +144,9 @@ class Written:
         """True where something of it is run."""
         return any(block["kind"] in ("command", "output") for block in self.blocks)
 
-    def outputs(self, files: kept.Files) -> list[str]:
+    def outputs(self) -> list[str]:
         """Output of its commands and of its Python blocks."""
-        page, printed = Page(self.name, files), self._printed()
+        page, printed = Page(self.name), self._printed()
         commands = iter(self.commands)
         return [
             next(printed) if block["kind"] == "output" else page.said(*next(commands))
@@ -235,17 +234,16 @@ class Made:
     """All that is made for some pages: in the background, each thing once."""
 
     def __init__(self, pages: list[Written]) -> None:
-        self._files = kept.files()
         self._pool = ThreadPoolExecutor(max(2, (os.cpu_count() or 2) - 1))
         wanted = {part for page in pages for part in page.parts}
         order = [*(part for part in wanted if part not in PARTS), *(part for part in PARTS if part in wanted)]
         self._parts = {name: self._pool.submit(self._part, name) for name in order}
         self._outputs: dict[str, Future[list[str]]] = {
-            page.name: self._pool.submit(page.outputs, self._files) for page in pages if page.runs
+            page.name: self._pool.submit(page.outputs) for page in pages if page.runs
         }
 
     def _part(self, name: str) -> None:
-        part = Part(name, self._files)
+        part = Part(name)
         if part.at_hand() is None:
             part.make()
             print(f"made {name}", file=sys.stderr, flush=True)
@@ -320,7 +318,7 @@ def _difference(page: Written, text: str) -> str:
 def left_over(names: list[str]) -> list[str]:
     """Figures that no page shows."""
     shown = {name for page in names for name in Written(page).figures}
-    files = (path for path in FIGURES.rglob("*.*") if path != ROOT / stamp.FILE)
+    files = (path for path in FIGURES.rglob("*.*") if path != ROOT / kept.STAMP)
     return sorted(path.as_posix() for path in files if path.relative_to(FIGURES).as_posix() not in shown)
 
 
@@ -331,7 +329,7 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--check", action="store_true", help="only compare; 1 if something differs")
     parser.add_argument("--unless-stamped", action="store_true", help="nothing, if no file has changed since")
     chosen_by = parser.parse_args(arguments)
-    if chosen_by.unless_stamped and stamp.holds():
+    if chosen_by.unless_stamped and kept.stamp_holds():
         print("pages are as they were written: no file has changed since")
         return 0
     try:
@@ -346,7 +344,7 @@ def main(arguments: list[str]) -> int:
     if failed or (chosen_by.check and differ):
         return 1
     if not (chosen_by.check or chosen_by.pages):
-        stamp.put()
+        kept.stamp()
     return 0
 
 

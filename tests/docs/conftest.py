@@ -8,7 +8,7 @@ import pytest
 
 from .pages import WRITER
 
-NAMES = "command", "compare", "equation", "kept", "parts", "reads", "sources", "stamp", "write"
+NAMES = "command", "compare", "equation", "kept", "parts", "sources", "write"
 
 
 @pytest.fixture(scope="session")

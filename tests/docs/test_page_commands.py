@@ -1,12 +1,15 @@
 """Commands of pages and their output: what is run, what is kept, what is shown."""
 
+import shutil
+import subprocess
+
 import pytest
 
 from support.commands import Commands
 
 from .pages import ROOT, WRITER
 
-#: A program that stands in for the one of the pages: two rooms, of which it loads one, and a table that it reads.
+#: A program that stands in for the one of the pages, and a table that it reads.
 PROGRAM = {
     "src/screw/__init__.py": "",
     "src/screw/__main__.py": "from screw import first\nprint(first.torque())\n",
@@ -15,49 +18,51 @@ PROGRAM = {
         "def torque():\n"
         "    return Path('examples/case.toml').read_text() + Path(__file__).with_name('table.txt').read_text()\n"
     ),
-    "src/screw/second.py": "",
+    "docs/page.md": "",
+    ".gitignore": "__pycache__\n",
+    "tests/test_screw.py": "",
     "src/screw/table.txt": "1 N m",
     "examples/case.toml": "case, ",
-    "examples/other.toml": "",
 }
 #: What forks in place of the libraries: a process that has loaded nothing.
 SERVER = f"""
 import sys
 sys.path[:0] = [{str(WRITER)!r}, {str(ROOT / "tests")!r}]
-import reads
-reads.listen()
 from support import fork_server
 fork_server.serve(sys.argv[1])
 """
 
 
 @pytest.fixture
-def command(writer, tmp_path, monkeypatch):
-    module, kept = writer.command, writer.kept
-    monkeypatch.setattr(module, "KEPT", tmp_path / "kept")
-    module.KEPT.mkdir()
-    of_program = kept.Files(ROOT / "examples")  # no sources there: what a shell runs depends on none of them
-    whole_page = module.Page
-    monkeypatch.setattr(module, "Page", lambda name: whole_page(name, of_program))
-    return module
-
-
-@pytest.fixture
-def program(writer, tmp_path, monkeypatch):
-    """A repository with a program in it, and the function that runs it on a page and says whether it ran."""
-    module, kept = writer.command, writer.kept
+def repository(writer, tmp_path, monkeypatch):
+    """A repository with the program in it, whose pages keep what is printed beside it."""
     root = tmp_path / "repository"
     for name, text in PROGRAM.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
         (root / name).write_text(text, encoding="utf-8")
+    subprocess.run(["git", "init", "-q", root], check=True)
+    monkeypatch.setattr(writer.command, "KEPT", tmp_path / "kept")
+    writer.command.KEPT.mkdir()
+    return root
+
+
+@pytest.fixture
+def command(writer, repository, monkeypatch):
+    whole_page = writer.command.Page
+    monkeypatch.setattr(writer.command, "Page", lambda name: whole_page(name, repository))
+    return writer.command
+
+
+@pytest.fixture
+def program(writer, repository, tmp_path, monkeypatch):
+    """The function that runs the program on a page and says whether it ran."""
     server = tmp_path / "server.py"
     server.write_text(SERVER, encoding="utf-8")
-    commands = Commands(server, [root / "src"])
-    monkeypatch.setattr(module, "KEPT", tmp_path / "kept")
-    monkeypatch.setattr(module, "ROOT", root)
-    monkeypatch.setattr(module, "MODULE", "screw")
-    monkeypatch.setattr(module, "program_at_hand", lambda: commands)
-    yield Program(module, kept, root)
+    commands = Commands(server, [repository / "src"])
+    monkeypatch.setattr(writer.command, "ROOT", repository)
+    monkeypatch.setattr(writer.command, "MODULE", "screw")
+    monkeypatch.setattr(writer.command, "program_at_hand", lambda: commands)
+    yield Program(writer.command, writer.kept, repository)
     commands.close()
 
 
@@ -67,9 +72,13 @@ class Program:
     def __init__(self, module, kept, root):
         self.module, self.kept, self.root = module, kept, root
 
+    def page(self):
+        self.kept.cause_of_all.cache_clear()
+        return self.module.Page("a", self.root)
+
     def runs(self, expected):
         """Whether it runs for its output, which is as expected."""
-        page = self.module.Page("a", self.kept.Files(self.root))
+        page = self.page()
         assert page.said(f"{self.module.PROGRAM} now", []) == f"{expected}\n"
         return not page.waiting
 
@@ -125,7 +134,7 @@ def test_a_command_that_fails_is_an_error(command):
         ("src/screw/third.py", "", "case, 1 N m"),  # and find another module than before
     ],
 )
-def test_a_command_runs_again_if_what_it_read_has_changed(changed, text, expected, program):
+def test_a_command_runs_again_if_a_file_has_changed(changed, text, expected, program):
     assert program.runs("case, 1 N m")
     assert not program.runs("case, 1 N m")
     (program.root / changed).write_text(text, encoding="utf-8")
@@ -133,28 +142,21 @@ def test_a_command_runs_again_if_what_it_read_has_changed(changed, text, expecte
     assert not program.runs(expected)
 
 
-@pytest.mark.parametrize("changed", ["src/screw/second.py", "examples/other.toml"])
-def test_a_command_does_not_run_again_for_what_it_did_not_read(changed, program):
+@pytest.mark.parametrize("changed", ["docs/page.md", "tests/test_screw.py"])
+def test_a_command_does_not_run_again_for_pages_and_tests(changed, program):
     assert program.runs("case, 1 N m")
     (program.root / changed).write_text("# changed\n", encoding="utf-8")
     assert not program.runs("case, 1 N m")
 
 
-def test_a_command_that_starts_programs_depends_on_all_files(program):
-    (program.root / "src/screw/first.py").write_text(
-        "import subprocess\n"
-        "def torque():\n"
-        "    return subprocess.run(['echo', 'it'], capture_output=True, text=True).stdout\n",
-        encoding="utf-8",
-    )
-    assert program.runs("it")
-    assert not program.runs("it")
-    (program.root / "examples/other.toml").write_text("# changed\n", encoding="utf-8")
-    assert program.runs("it")
+def test_where_git_knows_no_files_all_runs_again(program):
+    shutil.rmtree(program.root / ".git")
+    assert program.runs("case, 1 N m")
+    assert program.runs("case, 1 N m")
 
 
 def test_a_file_that_changes_while_the_command_runs_is_another_to_the_next_build(program):
-    page = program.module.Page("a", program.kept.Files(program.root))
+    page = program.page()
     (program.root / "src/screw/table.txt").write_text("2 N m", encoding="utf-8")
     page.said(f"{program.module.PROGRAM} now", [])
     assert program.runs("case, 2 N m")

@@ -118,27 +118,27 @@ def test_every_figure_is_there_and_shown(writer):
 def test_a_stamp_holds_until_a_file_changes(writer, tmp_path):
     subprocess.run(["git", "init", "--quiet"], cwd=tmp_path, check=True)
     page, source, other = (tmp_path / name for name in ("docs/page.md", "src/law.py", "out/kept.json"))
-    for path in (page, source, other, tmp_path / writer.stamp.FILE):
+    for path in (page, source, other, tmp_path / writer.kept.STAMP):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(path.name)
     (tmp_path / ".gitignore").write_text("out/\n")
-    assert not writer.stamp.holds(tmp_path)
-    writer.stamp.put(tmp_path)
+    assert not writer.kept.stamp_holds(tmp_path)
+    writer.kept.stamp(tmp_path)
     other.write_text("changed")  # git ignores it
-    assert writer.stamp.holds(tmp_path)
+    assert writer.kept.stamp_holds(tmp_path)
     for path in (page, source):
         before = path.read_text()
         path.write_text("changed")
-        assert not writer.stamp.holds(tmp_path)
+        assert not writer.kept.stamp_holds(tmp_path)
         path.write_text(before)
-        assert writer.stamp.holds(tmp_path)
+        assert writer.kept.stamp_holds(tmp_path)
     page.rename(page.with_name("other.md"))
-    assert not writer.stamp.holds(tmp_path)
+    assert not writer.kept.stamp_holds(tmp_path)
 
 
 def test_without_a_repository_no_stamp_holds(writer, tmp_path):
-    writer.stamp.put(tmp_path)
-    assert not writer.stamp.holds(tmp_path)
+    writer.kept.stamp(tmp_path)
+    assert not writer.kept.stamp_holds(tmp_path)
     assert not list(tmp_path.iterdir())
 
 
