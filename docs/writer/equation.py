@@ -7,11 +7,12 @@ and its annotations. So a page of theory cannot say anything else than the progr
 from __future__ import annotations
 
 import ast
+import functools
 import importlib
 import inspect
 import re
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from typing import Any, get_type_hints
 
 import sources
@@ -29,16 +30,55 @@ _GREEK = re.compile(
 _UNITS = {"1": "", "N m": "N m", "m^2/s": "m²/s", "kg/m^3": "kg/m³", "1/m^2": "1/m²", "N/m^1.5": "N/m¹·⁵"}
 
 
-def as_markdown(name: str, up: str) -> str:
+#: What belongs to a formula, in its order on the page.
+SHOWN = ("title", "formula", "letters", "remark")
+
+
+def as_markdown(name: str, up: str, shown: Collection[str] = SHOWN, known: Mapping[str, str] | None = None) -> str:
     """The formula of a function of ``ballscrew.physics.equations``, with all that belongs to it; ``up``: to ``docs``.
 
+    ``shown`` leaves out what another place says: the remark on a formula that an erratum repeats. Letters that are
+    ``known``, with the same meaning and unit, are not explained again.
+
     Raises:
-        ValueError: there is no such function, it has no formula, or a parameter has no letter.
+        ValueError: there is no such function, it has no formula, a parameter has no letter, or nothing is called so.
     """
+    if unknown := set(shown) - set(SHOWN):
+        raise ValueError(f"{name}: a formula has no {', '.join(sorted(unknown))}")
+    function, head, formula, rest = _read(name)
+    short = name.removeprefix("ballscrew.physics.equations.")
+    source = f"{up}../src/{name.rpartition('.')[0].replace('.', '/')}.py"
+    parts = {
+        "title": f"**{_plain(head)}**",
+        "formula": f"$$\n{formula}\n$$",
+        "letters": _legend(letters(name), known or {}, _unit(_hints(function).get("return"))),
+        "remark": _cited(_plain(rest), up),
+    }
+    paragraphs = [*(parts[part] for part in SHOWN if part in shown and parts[part]), f"[`{short}`]({source})"]
+    if len(paragraphs) > 2:  # a formula alone needs no box
+        paragraphs = ['<div class="equation">', *paragraphs, "</div>"]
+    return "\n\n".join(paragraphs) + "\n"
+
+
+@functools.cache
+def letters(name: str) -> dict[str, str]:
+    """What each letter of a formula stands for, with its unit, from the bindings and annotations of the function."""
+    function, _, formula, _ = _read(name)
+    hints, bound = _hints(function), _letters(function)
+    missing = set(inspect.signature(function).parameters) - set(bound)
+    if missing:
+        raise ValueError(f"{name}: no letter for {', '.join(sorted(missing))}")
+    return {
+        tex(letter, formula): f"{parameter.replace('_', ' ')}{_unit(hints.get(parameter))}"
+        for parameter, letter in bound.items()
+    }
+
+
+def _read(name: str) -> tuple[Callable[..., Any], str, str, str]:
+    """A function, and what its docstring says before its formula, in it and after it."""
     module_name, _, function_name = name.rpartition(".")
     try:
-        module = importlib.import_module(module_name)
-        function = getattr(module, function_name)
+        function = getattr(importlib.import_module(module_name), function_name)
     except (ImportError, AttributeError, ValueError) as error:
         raise ValueError(f"{name}: there is no such function ({error})") from error
     doc = inspect.getdoc(function) or ""
@@ -46,19 +86,11 @@ def as_markdown(name: str, up: str) -> str:
     if found is None:
         raise ValueError(f"{name}: its docstring has no formula")
     formula = " ".join(line.strip() for line in found["formula"].splitlines()).strip()
-    head, rest = doc[: found.start()].strip(), doc[found.end() :].strip()
-    short = name.removeprefix("ballscrew.physics.equations.")
-    source = f"{up}../src/{module_name.replace('.', '/')}.py"
-    paragraphs = [
-        '<div class="equation">',
-        f"**{_plain(head)}**",
-        f"$$\n{formula}\n$$",
-        _legend(name, function, formula),
-        *([_cited(_plain(rest), up)] if rest else []),
-        f"[`{short}`]({source})",
-        "</div>",
-    ]
-    return "\n\n".join(paragraphs) + "\n"
+    return function, doc[: found.start()].strip(), formula, doc[found.end() :].strip()
+
+
+def _hints(function: Callable[..., Any]) -> dict[str, Any]:
+    return get_type_hints(function, include_extras=True)
 
 
 def _plain(text: str) -> str:
@@ -71,26 +103,21 @@ def _plain(text: str) -> str:
 
 
 def _cited(text: str, up: str) -> str:
-    """Keys of the bibliography as citations, addresses in the paper as links to the table of equations."""
-    text = _ADDRESS.sub(lambda found: f"Olaru2005 [{' '.join(found[1].split())}]({up}equations.md)", text)
+    """Keys of the bibliography as citations, addresses in the paper as links to the table of its equations."""
+    text = _ADDRESS.sub(
+        lambda found: f"[{'p' if found.start() else 'P'}aper {' '.join(found[1].split())}]({up}equations.md)", text
+    )
     for key in sources.known():
         text = re.sub(rf"\b{re.escape(key)}\b", sources.link(key, up), text)
     return text
 
 
-def _legend(name: str, function: Callable[..., Any], formula: str) -> str:
-    """Each symbol with its meaning and unit, from the bindings and annotations of the function."""
-    hints = get_type_hints(function, include_extras=True)
-    letters = _letters(function)
-    missing = set(inspect.signature(function).parameters) - set(letters)
-    if missing:
-        raise ValueError(f"{name}: no letter for {', '.join(sorted(missing))}")
-    said = [
-        f"${tex(letter, formula)}$ {parameter.replace('_', ' ')}{_unit(hints.get(parameter))}"
-        for parameter, letter in letters.items()
-    ]
-    result = _unit(hints.get("return"))
-    return ", ".join(said) + (f"; the result{result}." if result else ".")
+def _legend(meanings: Mapping[str, str], known: Mapping[str, str], result: str) -> str:
+    """Each letter that is not known, with its meaning, and the unit of the result."""
+    said = ", ".join(f"${letter}$ {meaning}" for letter, meaning in meanings.items() if known.get(letter) != meaning)
+    if not said:
+        return f"The result{result}." if result else ""
+    return said + (f"; the result{result}." if result else ".")
 
 
 def _unit(annotation: object) -> str:

@@ -12,7 +12,8 @@ So a page reads where it lies, without a build. What is written stands between m
 - ``include``: a table or a text that a program makes (``parts.py`` lists them), or one of ``docs/*.inc``;
 - ``file``: a file of the repository, or one that a command of the page has kept (``commands/PAGE/NAME``), as code:
   whole, ``from`` a line, ``to`` before another, or its first ``lines``;
-- ``equation``: the formula of a function, with its symbols, units and source;
+- ``equation``: the formula of a function, with its symbols, units and source; ``show`` chooses of title, formula,
+  letters and remark. A section explains a letter once;
 - ``output``: what the Python block before it prints; of a page such blocks alone are run, and share their names;
 - ``<!--= NAME-->0.87<!--/-->``: a number.
 
@@ -43,7 +44,7 @@ import compare
 import kept
 import sources
 from command import DOCS, MADE, Page, chosen, displayed
-from equation import as_markdown
+from equation import SHOWN, as_markdown, letters
 from kept import ROOT
 from parts import PARTS, Part, numbers_of, part_of
 
@@ -55,8 +56,8 @@ _BLOCK = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 #: The options of each kind of mark.
-OPTIONS = {"command": {"show", "keep"}, "file": {"from", "to", "lines"}} | {
-    kind: set[str]() for kind in ("include", "equation", "output")
+OPTIONS = {"command": {"show", "keep"}, "file": {"from", "to", "lines"}, "equation": {"show"}} | {
+    kind: set[str]() for kind in ("include", "output")
 }
 _MARK = re.compile(rf"^<!-- (?:{'|'.join(OPTIONS)}): ", re.MULTILINE)
 _NUMBER = re.compile(r"(?P<mark><!--= (?P<name>\w+)-->)(?P<written>[^<]*)<!--/-->")
@@ -179,12 +180,22 @@ class Written:
         if block["kind"] == "output":
             return _fenced("text", next(said))
         if block["kind"] == "equation":
-            return as_markdown(what, self.up)
+            return as_markdown(what, self.up, _shown(block), self._explained(block))
         if block["kind"] == "file":
             return self._file(what, options)
         text = ((DOCS if what.endswith(".inc") else MADE) / what).read_text(encoding="utf-8")
         folder = f"{self.up}figures/{what.rpartition('/')[0]}/"
         return _apart(_IMAGE.sub(lambda image: f"{image['before']}{folder}{image['name']})", self._expanded(text)))
+
+    def _explained(self, block: re.Match[str]) -> dict[str, str]:
+        """The letters that formulas before this one explain, in its section of the page."""
+        start = self.text.rfind("\n## ", 0, block.start())
+        return {
+            letter: meaning
+            for other in self.blocks
+            if other["kind"] == "equation" and start < other.start() < block.start() and "letters" in _shown(other)
+            for letter, meaning in letters(other["what"]).items()
+        }
 
     def _file(self, what: str, options: Mapping[str, str]) -> str:
         found = ROOT / what if (ROOT / what).is_file() else MADE / what
@@ -215,6 +226,11 @@ def _line(what: str, lines: list[str], words: str, first: int) -> int:
 def _options(block: re.Match[str]) -> dict[str, str]:
     pairs = (line.partition(": ") for line in block["options"].strip("\n").splitlines())
     return {name: value for name, _, value in pairs}
+
+
+def _shown(block: re.Match[str]) -> list[str]:
+    """What a page shows of a formula."""
+    return _listed(_options(block).get("show", ",".join(SHOWN)))
 
 
 def _listed(words: str) -> list[str]:

@@ -37,7 +37,7 @@ def errata():
         sys.path.remove(str(DOCS))
 
 
-MARK = re.compile(r"^<!-- equation: (\S+) -->$", re.MULTILINE)
+MARK = re.compile(r"^<!-- equation: (\S+)(?:\nshow: [^\n]+)? -->$", re.MULTILINE)
 
 
 def shown():
@@ -66,6 +66,36 @@ def test_letters_are_written_as_in_the_formula(equation):
     assert equation.tex("E", r"\eta_0 v / E' R_x") == "E'"
     assert equation.tex("phi", r"\cos\varphi") == r"\varphi"
     assert equation.tex("F_Ss", "") == "F_{Ss}"
+
+
+FILM = "ballscrew.physics.equations.film.film_parameter"
+
+
+def test_a_page_chooses_what_it_shows_of_a_formula(equation):
+    alone = equation.as_markdown(FILM, "../", ["formula"])
+    assert alone.startswith("$$\n")
+    assert "minimum film thickness" not in alone
+    assert "**" not in alone
+    assert "[`film.film_parameter`](../../src/" in alone
+    with pytest.raises(ValueError, match="a formula has no colour"):
+        equation.as_markdown(FILM, "../", ["colour"])
+
+
+def test_a_letter_is_explained_once_while_it_means_the_same(equation):
+    known = equation.letters(FILM)
+    assert known["h"] == "minimum film thickness (m)"
+    assert "$h$ minimum" not in equation.as_markdown(FILM, "../", known=known)
+    assert "$h$ minimum" in equation.as_markdown(FILM, "../", known=known | {"h": "inlet film (m)"})
+
+
+def test_a_section_explains_a_letter_once(writer):
+    mark = f"<!-- equation: {FILM} -->\n<!-- end -->\n"
+    page = writer.write.Written("theory/film", f"# A\n\n## B\n\n{mark}\n{mark}\n## C\n\n{mark}")
+    # one block after the other: what a letter means depends on its place
+    first, again, elsewhere = (page._written(block, iter(())) for block in page.blocks)
+    assert "$h$ minimum" in first
+    assert "$h$ minimum" not in again
+    assert elsewhere == first
 
 
 def test_a_function_without_a_formula_is_refused(equation):
