@@ -26,13 +26,7 @@ LARGEST = 300_000  # bytes of a picture
 STATIC, STATIC_SIZE = f"A={DOUBLE}", {"width": 1360, "height": 860}
 COMMAND = [sys.executable, "-m", "ballscrew.faces.cli"]
 
-DESKTOP, PHONE = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
-OF_PAGE = {
-    "app_light.png": ("light", DESKTOP, "#A=paper"),
-    "app_dark.png": ("dark", DESKTOP, f"#A={DOUBLE}&A.operation.axial_load=7+kN&B=paper"),
-    "app_phone.png": ("light", PHONE, "#A=paper"),
-}
-
+DESKTOP = {"width": 1440, "height": 900}
 
 #: Tall enough that all charts of a card are near the viewport, and drawn.
 TALL = {"width": 1360, "height": 6000}
@@ -55,21 +49,16 @@ def save(name: str, png: bytes) -> None:
 
 
 def of_page(browser: Browser, address: str) -> None:
-    """Screenshots of the web page: light, dark, and on a phone."""
-    for name, (scheme, size, fragment) in OF_PAGE.items():
-        page = browser.new_page(color_scheme=scheme, viewport=size, device_scale_factor=2 if size is PHONE else 1)
-        page.goto(f"{address}/{fragment}")
-        page.wait_for_selector("html[data-ready]")
-        page.wait_for_selector('#results[aria-busy="false"]')
-        if "band=0" not in fragment:
-            page.wait_for_selector("#band-words >> text=95 %")
-        if size is PHONE:  # the answer and the checks
-            page.evaluate("document.querySelector('#numbers').scrollIntoView()")
-        else:
-            page.wait_for_selector("#torque-chart .plot[data-drawn]")
-        page.wait_for_timeout(500)
-        save(name, page.screenshot())
-        page.close()
+    """Screenshot of the web page."""
+    page = browser.new_page(color_scheme="light", viewport=DESKTOP)
+    page.goto(f"{address}/#A=paper")
+    page.wait_for_selector("html[data-ready]")
+    page.wait_for_selector('#results[aria-busy="false"]')
+    page.wait_for_selector("#band-words >> text=95 %")
+    page.wait_for_selector("#torque-chart .plot[data-drawn]")
+    page.wait_for_timeout(500)
+    save("app_light.png", page.screenshot())
+    page.close()
 
 
 def of_cards(browser: Browser, address: str) -> None:
@@ -87,25 +76,6 @@ def of_cards(browser: Browser, address: str) -> None:
         page.evaluate("scrollTo(0, 0)")
         save(name, page.screenshot(clip={**box, "height": min(box["height"], HIGHEST)}))
         page.close()
-
-
-def of_print(browser: Browser, address: str) -> None:
-    """Picture of the first page that a browser prints of the web page."""
-    page = browser.new_page(viewport=DESKTOP)
-    page.goto(f"{address}/#A={DOUBLE}")
-    page.wait_for_selector("html[data-ready]")
-    page.wait_for_selector('#results[aria-busy="false"]')
-    page.wait_for_selector("#band-words >> text=95 %")
-    page.wait_for_timeout(500)
-    save(
-        "app_print.png",
-        first_page(
-            page.pdf(
-                format="A4", print_background=True, margin=dict.fromkeys(("top", "right", "bottom", "left"), "12mm")
-            )
-        ),
-    )
-    page.close()
 
 
 def of_report() -> None:
@@ -156,7 +126,7 @@ def main() -> None:
     IMAGES.mkdir(exist_ok=True)
     with server() as (_, address), sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
-        for pictures in (of_page, of_cards, of_print):
+        for pictures in (of_page, of_cards):
             pictures(browser, address)
         of_static_page(browser)
         of_report()
