@@ -1,4 +1,4 @@
-"""Write screenshots of the web page, of a report and of the documentation: ``make screenshots``."""
+"""Write screenshots of the web page, with a server and without: ``make screenshots``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import sys
 import tempfile
 from pathlib import Path
 
-import typst
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
@@ -18,8 +17,6 @@ from serve import server
 
 ROOT = Path(__file__).parents[1]
 IMAGES = ROOT / "docs" / "images"
-CASE = ROOT / "examples" / "catalogue_screw.toml"
-START = ROOT / "out" / "docs" / "index.html"
 DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
 #: The page without a server, and the case that it shows.
@@ -78,23 +75,6 @@ def of_cards(browser: Browser, address: str) -> None:
         page.close()
 
 
-def of_report() -> None:
-    """Picture of the first page of a PDF report."""
-    with tempfile.TemporaryDirectory() as folder:
-        report = Path(folder) / "report.pdf"
-        subprocess.run([*COMMAND, "report", CASE, "--to", report], check=True, capture_output=True)
-        save("report_first_page.png", first_page(report.read_bytes()))
-
-
-def first_page(pdf: bytes) -> bytes:
-    """The first page of a PDF as a picture."""
-    with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "document.pdf").write_bytes(pdf)
-        page = Path(folder) / "page.typ"
-        page.write_text('#set page(paper: "a4", margin: 0pt)\n#image("document.pdf", page: 1)\n', encoding="utf-8")
-        return typst.compile(page, root=folder, format="png", ppi=90)
-
-
 def of_static_page(browser: Browser) -> None:
     """Screenshot of the page without a server."""
     with tempfile.TemporaryDirectory() as folder:
@@ -110,17 +90,6 @@ def of_static_page(browser: Browser) -> None:
         page.close()
 
 
-def of_docs(browser: Browser) -> None:
-    """Screenshot of the start page of the documentation."""
-    if not START.exists():
-        print("docs_start.png is left as it is: make docs first")
-        return
-    page = browser.new_page(color_scheme="light", viewport=DESKTOP)
-    page.goto(START.as_uri())
-    save("docs_start.png", page.screenshot())
-    page.close()
-
-
 def main() -> None:
     """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
@@ -129,8 +98,6 @@ def main() -> None:
         for pictures in (of_page, of_cards):
             pictures(browser, address)
         of_static_page(browser)
-        of_report()
-        of_docs(browser)
         browser.close()
 
 
