@@ -1,4 +1,4 @@
-"""Write screenshots of the web page, of a report and of the documentation: ``make screenshots``."""
+"""Write screenshots of the web page, with a server and without: ``make screenshots``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import sys
 import tempfile
 from pathlib import Path
 
-import typst
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
@@ -18,21 +17,13 @@ from serve import server
 
 ROOT = Path(__file__).parents[1]
 IMAGES = ROOT / "docs" / "images"
-CASE = ROOT / "examples" / "catalogue_screw.toml"
-START = ROOT / "out" / "docs" / "index.html"
 DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
 #: The page without a server, and the case that it shows.
 STATIC, STATIC_SIZE = f"A={DOUBLE}", {"width": 1360, "height": 860}
 COMMAND = [sys.executable, "-m", "ballscrew.faces.cli"]
 
-DESKTOP, PHONE = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
-OF_PAGE = {
-    "app_light.png": ("light", DESKTOP, "#A=paper"),
-    "app_dark.png": ("dark", DESKTOP, f"#A={DOUBLE}&A.operation.axial_load=7+kN&B=paper"),
-    "app_phone.png": ("light", PHONE, "#A=paper"),
-}
-
+DESKTOP = {"width": 1440, "height": 900}
 
 #: Tall enough that all charts of a card are near the viewport, and drawn.
 TALL = {"width": 1360, "height": 6000}
@@ -55,21 +46,16 @@ def save(name: str, png: bytes) -> None:
 
 
 def of_page(browser: Browser, address: str) -> None:
-    """Screenshots of the web page: light, dark, and on a phone."""
-    for name, (scheme, size, fragment) in OF_PAGE.items():
-        page = browser.new_page(color_scheme=scheme, viewport=size, device_scale_factor=2 if size is PHONE else 1)
-        page.goto(f"{address}/{fragment}")
-        page.wait_for_selector("html[data-ready]")
-        page.wait_for_selector('#results[aria-busy="false"]')
-        if "band=0" not in fragment:
-            page.wait_for_selector("#band-words >> text=95 %")
-        if size is PHONE:  # the answer and the checks
-            page.evaluate("document.querySelector('#numbers').scrollIntoView()")
-        else:
-            page.wait_for_selector("#torque-chart .plot[data-drawn]")
-        page.wait_for_timeout(500)
-        save(name, page.screenshot())
-        page.close()
+    """Screenshot of the web page."""
+    page = browser.new_page(color_scheme="light", viewport=DESKTOP)
+    page.goto(f"{address}/#A=paper")
+    page.wait_for_selector("html[data-ready]")
+    page.wait_for_selector('#results[aria-busy="false"]')
+    page.wait_for_selector("#band-words >> text=95 %")
+    page.wait_for_selector("#torque-chart .plot[data-drawn]")
+    page.wait_for_timeout(500)
+    save("app_light.png", page.screenshot())
+    page.close()
 
 
 def of_cards(browser: Browser, address: str) -> None:
@@ -89,42 +75,6 @@ def of_cards(browser: Browser, address: str) -> None:
         page.close()
 
 
-def of_print(browser: Browser, address: str) -> None:
-    """Picture of the first page that a browser prints of the web page."""
-    page = browser.new_page(viewport=DESKTOP)
-    page.goto(f"{address}/#A={DOUBLE}")
-    page.wait_for_selector("html[data-ready]")
-    page.wait_for_selector('#results[aria-busy="false"]')
-    page.wait_for_selector("#band-words >> text=95 %")
-    page.wait_for_timeout(500)
-    save(
-        "app_print.png",
-        first_page(
-            page.pdf(
-                format="A4", print_background=True, margin=dict.fromkeys(("top", "right", "bottom", "left"), "12mm")
-            )
-        ),
-    )
-    page.close()
-
-
-def of_report() -> None:
-    """Picture of the first page of a PDF report."""
-    with tempfile.TemporaryDirectory() as folder:
-        report = Path(folder) / "report.pdf"
-        subprocess.run([*COMMAND, "report", CASE, "--to", report], check=True, capture_output=True)
-        save("report_first_page.png", first_page(report.read_bytes()))
-
-
-def first_page(pdf: bytes) -> bytes:
-    """The first page of a PDF as a picture."""
-    with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "document.pdf").write_bytes(pdf)
-        page = Path(folder) / "page.typ"
-        page.write_text('#set page(paper: "a4", margin: 0pt)\n#image("document.pdf", page: 1)\n', encoding="utf-8")
-        return typst.compile(page, root=folder, format="png", ppi=90)
-
-
 def of_static_page(browser: Browser) -> None:
     """Screenshot of the page without a server."""
     with tempfile.TemporaryDirectory() as folder:
@@ -140,27 +90,14 @@ def of_static_page(browser: Browser) -> None:
         page.close()
 
 
-def of_docs(browser: Browser) -> None:
-    """Screenshot of the start page of the documentation."""
-    if not START.exists():
-        print("docs_start.png is left as it is: make docs first")
-        return
-    page = browser.new_page(color_scheme="light", viewport=DESKTOP)
-    page.goto(START.as_uri())
-    save("docs_start.png", page.screenshot())
-    page.close()
-
-
 def main() -> None:
     """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
     with server() as (_, address), sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
-        for pictures in (of_page, of_cards, of_print):
+        for pictures in (of_page, of_cards):
             pictures(browser, address)
         of_static_page(browser)
-        of_report()
-        of_docs(browser)
         browser.close()
 
 

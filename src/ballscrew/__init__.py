@@ -1,4 +1,4 @@
-"""ballscrew: what a ball screw loses to friction, and why, term by term.
+"""Friction of ball screws, cause by cause: torque, efficiency, heat and back-driving, with band and range of validity.
 
 The public names are listed once, in ``__init__.pyi``. Each is loaded at its first use, so that
 ``import ballscrew`` costs little more than NumPy. Ask for help of one of them,

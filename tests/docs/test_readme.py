@@ -4,8 +4,10 @@ import re
 
 import pytest
 
+import ballscrew
 import validation_tables
 from ballscrew.cases.case_files import case_file
+from ballscrew.faces.cli.main import app
 from ballscrew.physics.components.oil_grades import TEMPERATURE
 from ballscrew.questions.sensitivity import SensitivityOptions
 from ballscrew.questions.sensitivity.answer import sensitivity
@@ -57,6 +59,15 @@ def test_two_of_three_makers_state_twice_our_torque(readme):
     assert 0.45 < of["THK"] < 0.6
     assert of["Rexroth"] > 0.8
     assert "Two of three makers, THK and HIWIN, state about twice our torque" in " ".join(readme.split())
+
+
+def test_one_sentence_says_what_it_is(readme):
+    """Where people meet the project, they read the same: that of the package."""
+    said = ballscrew.__doc__.splitlines()[0]
+    assert f"**{said}**" in readme
+    for file in ("pyproject.toml", "CITATION.cff", "docs/index.md"):
+        assert said in " ".join((ROOT / file).read_text(encoding="utf-8").split()), file
+    assert app.info.help == said
 
 
 def test_the_readme_is_short(readme):

@@ -127,7 +127,8 @@ def _listed() -> None:
 app = typer.Typer(
     name="ballscrew",
     cls=_Commands,
-    help="What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term.",
+    help="Friction of ball screws, cause by cause: torque, efficiency, heat and back-driving, with band and range of "
+    "validity.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
