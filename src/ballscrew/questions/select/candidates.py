@@ -33,6 +33,7 @@ from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.check.answer import Checked, checked, checks_by_loads
 from ballscrew.questions.duty import compute, verdicts
 from ballscrew.questions.duty.compute import DutyReport
+from ballscrew.questions.run.compute import with_nut
 from ballscrew.questions.select import requirements
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_LENGTH, Requirements, reflected_mass, shaft_length
@@ -363,45 +364,39 @@ def each_by_loads(
     return found
 
 
-def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) -> Candidate:
-    """A variant with all that is computed of it; ``recorded`` where many of its kind are judged."""
+def judged(need: Need, candidate: Candidate, *, recorded: bool = False) -> Candidate:
+    """A candidate with all that is computed of it; ``recorded`` where many of its kind are judged."""
+    variant, case, nut = candidate.variant, candidate.case, candidate.case.nut
     row = variant.row
     notes = [text for name, text in assumed(row).items() if name != "loaded_turns"]
     if need.length_is_stroke and case.installation is not None:
         length = units.shown(case.installation.unsupported_length, fields_of(Installation)["unsupported_length"])
         notes.append(f"unsupported length {length}: {LENGTH_OF_STROKE}")
-    result = checked(row.name, case, [*need.notes, *notes])
+    known = None if need.moves or nut is None or nut.set_at_rest else with_nut(case, nut, candidate.balls)
+    result = checked(row.name, case, [*need.notes, *notes], known)
     report = compute.duty(case, recorded=recorded) if need.moves else None
     starves = Starved.of(result, report)
     numbers = objectives(need, result, report, _price(need, variant), starves)
-    own = result.checks if report is None else report.checks
     balls = result.nut.loads if report is None else report.balls_under_largest_load
-    load = float(case.operation.axial_load) if report is None else report.largest_load
-    preload = result.nut.preload
-    return Candidate(
-        variant,
+    of_loads = requirements.by_loads(
+        need.requirements,
         case,
-        (
-            *own,
-            *requirements.by_loads(
-                need.requirements,
-                case,
-                numbers,
-                preload=preload,
-                largest_load=load,
-                balls=balls,
-                lacks_preload=lacks_preload(need, variant),
-            ),
-            *requirements.of_friction(need.requirements, result, report, numbers),
-        ),
         numbers,
-        preload,
-        load,
-        balls,
-        result,
-        report,
-        _looked_for(need),
-        starves.records,
+        preload=result.nut.preload,
+        largest_load=candidate.load,
+        balls=balls,
+        lacks_preload=lacks_preload(need, variant),
+    )
+    own = result.checks if report is None else report.checks
+    return dataclasses.replace(
+        candidate,
+        checks=(*own, *of_loads, *requirements.of_friction(need.requirements, result, report, numbers)),
+        objectives=numbers,
+        preload=result.nut.preload,
+        balls=balls,
+        run=result,
+        duty=report,
+        starved=starves.records,
     )
 
 

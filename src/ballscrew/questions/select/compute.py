@@ -180,7 +180,7 @@ def select(
         if isinstance(candidate, InputError):
             raise candidate
         if complete or not candidate.cannot_hold:
-            candidate = judged(asked, variant, candidate.case, recorded=variant.nut in recorded)
+            candidate = judged(asked, candidate, recorded=variant.nut in recorded)
         if found_one is not None:
             found_one(candidate)
         return candidate
