@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew.axis.thermal.network import nut_length
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Duration, Force, Length, fields_of
@@ -259,6 +258,8 @@ def case_tables(need: Need, variant: Variant) -> dict[str, Any]:
 
 
 def _nut_length(variant: Variant) -> Length:
+    from ballscrew.axis.thermal.network import nut_length  # loads xarray: for lengths that no need gives
+
     row = variant.row
     return nut_length(row.loaded_turns, row.lead, NUTS[variant.nut].halves if variant.nut in NUTS else 1)
 
