@@ -125,12 +125,17 @@ _parsed: set[str] = set()
 
 def to_si(value: float, unit: str, quantity: Quantity) -> float:
     """Convert to the SI unit of a quantity. Raises pint's errors for units that do not fit."""
-    units = registry()
     _parsed.add(unit)
     if len(_parsed) > _MOST_PARSED:
         registry.cache_clear()
         _parsed.clear()
-    return float(units.Quantity(value, _pint_unit(unit)).to(_pint_unit(quantity.unit)).magnitude)
+    return _converted_number(float(value).hex(), unit, quantity.unit)
+
+
+@functools.lru_cache(maxsize=_MOST_PARSED)
+def _converted_number(exact: str, unit: str, other: str) -> float:
+    """A number of one unit in another, kept: the same few come with every row of a table; zeros keep their sign."""
+    return float(registry().Quantity(float.fromhex(exact), _pint_unit(unit)).to(_pint_unit(other)).magnitude)
 
 
 def from_si(value: Any, quantity: Quantity) -> Any:
