@@ -36,6 +36,8 @@ _LONGEST_UNIT = 40
 LONGEST_VALUE = 200
 #: Distinct unit texts after which the registry is rebuilt: its cache of parsed units has no bound.
 _MOST_PARSED = 1000
+#: Converted numbers that are kept.
+_MOST_KEPT = 10_000
 #: Units that people use for a quantity, by its SI unit; the first ones are named in messages.
 USUAL: Mapping[str, Sequence[str]] = {
     "m": ("mm", "um", "in", "m", "cm", "nm", "uin"),
@@ -132,7 +134,7 @@ def to_si(value: float, unit: str, quantity: Quantity) -> float:
     return _converted_number(float(value).hex(), unit, quantity.unit)
 
 
-@functools.lru_cache(maxsize=_MOST_PARSED)
+@functools.lru_cache(maxsize=_MOST_KEPT)
 def _converted_number(exact: str, unit: str, other: str) -> float:
     """A number of one unit in another, kept: the same few come with every row of a table; zeros keep their sign."""
     return float(registry().Quantity(float.fromhex(exact), _pint_unit(unit)).to(_pint_unit(other)).magnitude)
@@ -142,6 +144,8 @@ def from_si(value: Any, quantity: Quantity) -> Any:
     """Convert a value or an array from SI to the display unit."""
     if quantity.shown_in == quantity.unit or quantity.unit == "1":
         return value
+    if type(value) is float:
+        return _converted_number(value.hex(), quantity.unit, quantity.shown_in)
     units = registry()
     return units.Quantity(value, _pint_unit(quantity.unit)).to(_pint_unit(quantity.shown_in)).magnitude
 

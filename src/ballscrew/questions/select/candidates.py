@@ -497,10 +497,10 @@ def _of_cycle(report: DutyReport, *, starves: bool) -> dict[str, float]:
 
 def _without_load(result: Checked) -> BothTorques | None:
     """Torque of the nut without load as it is given and in a full bath of oil; None where they hardly differ."""
-    case, given = result.run.case, float(result.nut.preload_drag)
-    speed = case.operation.screw_speed
-    if validity.least_replenished(case.model, case.screw, case.lubricant, speed) >= validity.NEARLY_ALL:
-        return None
-    idle = case.model.in_full_bath(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
-    both = BothTorques(OBJECTIVES["preload_torque"].quantity, given, float(idle.screw_torque))
-    return both if validity.differs(both.given, both.flooded) else None
+    case, given, flooded = result.run.case, result.nut.preload_drag, result.nut.flooded_drag
+    if case.screw.nut.set_at_rest and flooded != given:  # in a full bath motion leaves it another preload
+        speed = case.operation.screw_speed
+        idle = case.model.in_full_bath(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
+        flooded = float(idle.screw_torque)
+    both = BothTorques(OBJECTIVES["preload_torque"].quantity, given, flooded)
+    return both if validity.differs(given, flooded) else None
