@@ -311,8 +311,8 @@ def _of_balls(case: Case) -> Run:
     )
 
 
-def with_nut(case: Case, nut: Nut, loads: BallLoads | None = None) -> Run:
-    """The case with this nut in place of its own; ``loads`` are those of its balls in motion, where they are known."""
+def with_nut(case: Case, nut: Nut, known: BallLoads | None = None) -> Run:
+    """The case with this nut in place of its own; the loads of its balls in motion may be ``known``."""
     load, speed = case.operation.axial_load, case.operation.screw_speed
 
     screw = dataclasses.replace(case.screw, nut=nut)
@@ -320,7 +320,7 @@ def with_nut(case: Case, nut: Nut, loads: BallLoads | None = None) -> Run:
     def friction(load: Any, speed: Any, loads: BallLoads | None = None) -> FrictionResult:
         return case.model(screw, case.lubricant, axial_load=load, screw_speed=speed, loads=loads)
 
-    result = friction(load, speed, loads)
+    result = friction(load, speed, known)
     # at rest and without load: together, as a call of the model takes long by itself
     beside = friction(np.array([load, 0.0]), np.array([0.0, speed]))
     loads, half = result.loads, np.shape(result.loads.balls)[-1] // nut.halves
