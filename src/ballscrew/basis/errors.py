@@ -350,6 +350,8 @@ def faults_of(section: str, part: Any, optional: Sequence[str] = ()) -> list[Fau
         given = getattr(part, name)
         if given is None and name in optional:
             continue
+        if type(given) is float and out_of_bounds(quantity.info, given) is None:  # as most are
+            continue
         value = without_unit(f"{section}.{name}", given, quantity.unit)
         if isinstance(value, Fault):
             faults.append(value)

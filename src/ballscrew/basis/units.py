@@ -36,6 +36,8 @@ _LONGEST_UNIT = 40
 LONGEST_VALUE = 200
 #: Distinct unit texts after which the registry is rebuilt: its cache of parsed units has no bound.
 _MOST_PARSED = 1000
+#: Converted numbers that are kept.
+_MOST_KEPT = 10_000
 #: Units that people use for a quantity, by its SI unit; the first ones are named in messages.
 USUAL: Mapping[str, Sequence[str]] = {
     "m": ("mm", "um", "in", "m", "cm", "nm", "uin"),
@@ -125,18 +127,25 @@ _parsed: set[str] = set()
 
 def to_si(value: float, unit: str, quantity: Quantity) -> float:
     """Convert to the SI unit of a quantity. Raises pint's errors for units that do not fit."""
-    units = registry()
     _parsed.add(unit)
     if len(_parsed) > _MOST_PARSED:
         registry.cache_clear()
         _parsed.clear()
-    return float(units.Quantity(value, _pint_unit(unit)).to(_pint_unit(quantity.unit)).magnitude)
+    return _converted_number(float(value).hex(), unit, quantity.unit)
+
+
+@functools.lru_cache(maxsize=_MOST_KEPT)
+def _converted_number(exact: str, unit: str, other: str) -> float:
+    """A number of one unit in another, kept: the same few come with every row of a table; zeros keep their sign."""
+    return float(registry().Quantity(float.fromhex(exact), _pint_unit(unit)).to(_pint_unit(other)).magnitude)
 
 
 def from_si(value: Any, quantity: Quantity) -> Any:
     """Convert a value or an array from SI to the display unit."""
     if quantity.shown_in == quantity.unit or quantity.unit == "1":
         return value
+    if type(value) is float:
+        return _converted_number(value.hex(), quantity.unit, quantity.shown_in)
     units = registry()
     return units.Quantity(value, _pint_unit(quantity.unit)).to(_pint_unit(quantity.shown_in)).magnitude
 

@@ -9,12 +9,14 @@ from scipy.optimize import root
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
+from ballscrew.basis.quantities import quantities_of
 from ballscrew.evidence.papers.olaru2005.case import SCREW as PAPER
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.equations import geometry, hertz, nut_losses
+from ballscrew.physics.friction.loaded_balls import loads_of, loads_of_each
 from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers import ball_springs, load_distribution
-from ballscrew.physics.solvers.load_distribution import ball_loads, preload_of
+from ballscrew.physics.solvers.load_distribution import BallLoads, ball_loads, preload_of
 
 STEEL = PAPER.ball_material
 LOAD = 4000.0
@@ -317,6 +319,45 @@ def test_of_an_array_each_load_has_the_lift_off_load_of_its_sign():
     assert together.lift_off_load == pytest.approx([alone[0], alone[0], alone[1], alone[1]], rel=1e-9)
     assert together.at(np.array([2, 0])).lift_off_load == pytest.approx(alone[::-1], rel=1e-9)
     assert together.at(np.array([2, 0])).rigid_lift_off_load == pytest.approx([2738, 2738], abs=0.5)
+
+
+def test_many_screws_together_are_each_by_itself():
+    """Screws with the same and with other numbers of balls, nuts of all kinds, either sign of the load, and none."""
+    rows = ("rexroth-25x5x3-4-double", "thk-bnfn3205-2.5")
+    nuts = [
+        DoubleNut(954.0, 0.01, bodies=Bodies()),
+        OffsetLeadNut(954.0, bodies=Bodies(swelling=False, same_side=False)),
+        OversizeBallNut(500.0, bodies=Bodies()),
+        OversizeBallNut(oversize=4e-6, bodies=Bodies()),
+        SingleNut(bodies=Bodies()),
+        DoubleNut(954.0),
+        DoubleNut(954.0, bodies=Bodies(), deviations=Deviations(ball_diameter=1e-7)),
+    ]
+    parts = [bs.catalogue()[row].screw(nut=nut) for row in rows for nut in nuts for _ in range(4)]
+    loads = [load for _ in rows for _ in nuts for load in (-2500.0, 0.0, 3000.0, 3000.0)]
+    found = loads_of_each(parts, loads)
+    for part, load, mine in zip(parts, loads, found, strict=True):
+        alone = loads_of(part, load)
+        for name in (*({*quantities_of(BallLoads)} - {"lift_off_load"}), "rigid_lift_off_load", "balls"):
+            assert getattr(mine, name) == pytest.approx(getattr(alone, name), rel=1e-9, abs=1e-12), name
+    for place in range(0, len(nuts) * 4, 4):
+        alone = loads_of(parts[place], loads[place])
+        assert float(found[place].lift_off_load) == pytest.approx(float(alone.lift_off_load), rel=1e-9)
+    assert found[2] is found[3]  # the same numbers are solved once
+
+
+def test_a_screw_that_has_no_loads_leaves_the_others_theirs():
+    """A nut without a wall around its balls, elastic or with balls that deviate, beside one that has all."""
+    thin = Bodies(nut_outer_diameter=0.026)
+    good = SMALL.screw(nut=BRACED)
+    faulty = [dataclasses.replace(good, nut=DoubleNut(954.0, bodies=thin, deviations=d)) for d in (None, Deviations())]
+    first, one, other, last = loads_of_each([good, *faulty, good], [100.0] * 4)
+    assert first is last
+    assert first.rigidity == pytest.approx(float(loads_of_small(100.0).rigidity), rel=1e-9)
+    for error in (one, other):
+        assert isinstance(error, InputError)
+        assert "bodies.nut_outer_diameter" in str(error)
+    assert loads_of_each([], []) == []
 
 
 @pytest.mark.slow

@@ -39,6 +39,7 @@ def candidate(name, *checks, loss=1.0, life=2e4 * HOUR, valid=True, complete=Tru
         checks,
         objectives,
         0.0,
+        0.0,
         None,
         run if complete else None,
         life_looked_for=looked_for,

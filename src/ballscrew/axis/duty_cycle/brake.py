@@ -7,7 +7,6 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.optimize import root_scalar
 
 from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.duty_cycle.screw_friction import ModelledScrew
@@ -201,6 +200,8 @@ class _Off:
                 return self.pull - float(self.friction(np.array([speed]), [temperature])[0][0])
 
             if self.pull - float(friction[least]) > 0 > self.pull - at_fastest:
+                from scipy.optimize import root_scalar  # slow to import: for axes that fall at a steady speed
+
                 steady = root_scalar(left, bracket=(slowest, FASTEST), rtol=1e-6).root * lead / (2 * math.pi)
             started = float(friction[0]) if rest is None else rest[number]
             result.append(self._record(condition, temperature, started, float(friction[least]), steady))

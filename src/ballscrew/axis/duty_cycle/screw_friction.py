@@ -13,7 +13,6 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis.arrays import ByValue, compact, lazy
 from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import Info, Length, Ratio
-from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
@@ -173,6 +172,8 @@ class ModelledScrew(ByValue):
             oil = oil.at(float(temperature[0]))
         balls = self.screw.nut.halves * int(self.screw.loaded_balls) if self.screw.nut.one_by_one else 1
         if self.recorded or len(axial_load) * balls > WORTH_RECORDING:
+            from ballscrew.engine.evaluation.evaluator import evaluator  # loads xarray: for many points only
+
             return evaluator(self.model, self.screw, oil, inputs=tuple(values), outputs=names)(**values)
         result = self.model(self.screw, oil, **values, loads=self.loads_at(axial_load))
         known = known_outputs(self.screw.nut)

@@ -8,6 +8,7 @@ plain texts, which a renderer escapes.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Literal, TypeAlias
@@ -261,17 +262,32 @@ class Columns:
 Cells: TypeAlias = Mapping[str, tuple[Any, Quantity | None]]
 
 
-def columns_of(name: str, rows: Sequence[Cells]) -> Columns:
-    """A table of rows that need not have the same columns; those of the first come first."""
-    quantities = {heading: quantity for cells in reversed(rows) for heading, (_, quantity) in cells.items()}
-    headings = dict.fromkeys(heading for cells in rows for heading in cells)
-    return Columns(
-        name,
-        [
+class _OfRows(Sequence[Column]):
+    """Columns of rows, which are made when they are first read: few faces show them."""
+
+    def __init__(self, rows: Iterable[Cells]) -> None:
+        self._rows = rows
+
+    @functools.cached_property
+    def _columns(self) -> Sequence[Column]:
+        rows = list(self._rows)
+        quantities = {heading: quantity for cells in reversed(rows) for heading, (_, quantity) in cells.items()}
+        headings = dict.fromkeys(heading for cells in rows for heading in cells)
+        return [
             Column(heading, [cells.get(heading, (None, None))[0] for cells in rows], quantities[heading])
             for heading in headings
-        ],
-    )
+        ]
+
+    def __getitem__(self, place: Any) -> Any:
+        return self._columns[place]
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+
+def columns_of(name: str, rows: Iterable[Cells]) -> Columns:
+    """A table of rows that need not have the same columns; those of the first come first."""
+    return Columns(name, _OfRows(rows))
 
 
 Block: TypeAlias = Lines | Table | Chart | Map | Bars | Columns

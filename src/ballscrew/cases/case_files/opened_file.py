@@ -18,7 +18,6 @@ from ballscrew.cases.case_files import case_file, case_text, project
 from ballscrew.cases.case_files.project import Design
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.files.tables.sheets import is_spreadsheet
-from ballscrew.files.torque_logs.reading import preview
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 
 #: Fields, in any table of a case, that name a file beside it.
@@ -121,6 +120,8 @@ def _screws(path: Path) -> catalogue.Screws:
 
 def _is_log(path: Path) -> bool:
     """Test whether a table has a torque, and what belongs to it."""
+    from ballscrew.files.torque_logs.reading import preview  # loads pandas: for tables that are no screws
+
     try:
         values = {column.taken_for for column in preview(path).columns}
     except InputError:

@@ -35,7 +35,7 @@ from ballscrew.physics.friction.four_contact_balls import (
 )
 from ballscrew.physics.friction.validity import contact_masks, no_skid, slip_masks
 from ballscrew.physics.laws.contact import Contact
-from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads, ball_loads
+from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads, ball_loads, ball_loads_of_each
 
 #: A load at which the friction of lifted balls is computed, N, to have a derivative; its value is not used.
 ANY_LOAD = 1.0
@@ -145,6 +145,21 @@ def loads_of(screw: BallScrew, axial_load: Force, *, compiled: bool = False) -> 
     angles = ball_angles(screw) if np.any(getattr(nut.deviations, "groove", 0.0)) else None
     deviations = nut.deviations_of(screw.carrying_balls, angles)
     return ball_loads(screw, nut, settled(axial_load), bodies=bodies, deviations=deviations, compiled=compiled)
+
+
+def loads_of_each(screws: Sequence[BallScrew], axial_loads: Sequence[Force]) -> list[BallLoads | InputError]:
+    """The loads of the balls of each of many screws, or why one has none; those between elastic bodies together."""
+    alike = [screw.nut.bodies is not None and screw.nut.deviations is None for screw in screws]
+    elastic = [(screw, settled(load)) for screw, load, one in zip(screws, axial_loads, alike, strict=True) if one]
+    together = iter(ball_loads_of_each(*zip(*elastic, strict=True)) if elastic else ())
+
+    def alone(screw: BallScrew, load: Force) -> BallLoads | InputError:
+        try:
+            return loads_of(screw, load)
+        except InputError as error:
+            return error
+
+    return [next(together) if one else alone(*of) for *of, one in zip(screws, axial_loads, alike, strict=True)]
 
 
 def ball_angles(screw: BallScrew) -> Angle:

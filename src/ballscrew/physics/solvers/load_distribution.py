@@ -32,7 +32,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from ballscrew.basis.arrays import as_array, in_blocks, lazy, map_blocks, namespace
-from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
+from ballscrew.basis.errors import Fault, InputError, accepts_units, is_concrete, raise_if_any, si_value
 from ballscrew.basis.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
 from ballscrew.physics.components.nut import Bodies, Deviations, Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew, Raceway
@@ -61,17 +61,15 @@ class LiftOff:
     points: _Points
     #: The load between rigid bodies.
     rigid: Force
-    #: Some of the points.
-    places: Any = ...
 
     def at(self, places: Any) -> LiftOff:
         """The search at some of several operating points."""
-        return dataclasses.replace(self, rigid=self.rigid[places], places=places)
+        return LiftOff(self.case, self.points.at(places), self.rigid[places])
 
     def __call__(self) -> Force:
         """The load, N; NaN for a preload below zero."""
         (result,) = _solution(elastic_lift_off_load, self.case, self.points)
-        return self.points.all_of(result)[self.places][()]
+        return self.points.all_of(result)[()]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -197,6 +195,35 @@ def ball_loads(
     return _one_by_one(screw, nut, point, bodies, deviations, constant_contact_angle, compiled)
 
 
+def ball_loads_of_each(screws: Sequence[BallScrew], axial_loads: Sequence[Force]) -> list[BallLoads | InputError]:
+    """Loads of the balls of many screws between their elastic bodies, without deviations, or why one has none.
+
+    Nuts with the same balls are solved together, and those with the same numbers once: these share what they have.
+    """
+    found: list[BallLoads | InputError | None] = [None] * len(screws)
+    kinds: dict[Any, tuple[NutCase, dict[bytes, list[int]]]] = {}
+    for place, (screw, load) in enumerate(zip(screws, axial_loads, strict=True)):
+        nut: Any = screw.nut
+        try:
+            bodies = nut.bodies.sized(screw)
+            raise_if_any(_faults(screw, nut.halves, None))
+        except InputError as error:
+            found[place] = error
+            continue
+        case = _case(screw, nut, bodies, None, False, False)
+        numbers = np.array(_numbers(screw, nut, _rigid_nut(screw, nut, as_array(load)), bodies), dtype=float)
+        _, alike = kinds.setdefault(case[: NutCase._fields.index("excess")], (case, {}))
+        alike.setdefault(numbers.tobytes(), []).append(place)
+    for case, alike in kinds.values():
+        flat = [*np.frombuffer(b"".join(alike)).reshape(len(alike), -1).T.copy()]
+        together = _at_points(case, _Points(flat, len(alike), slice(None), (len(alike),)))
+        for number, places in enumerate(alike.values()):
+            one = together.at(number)
+            for place in places:
+                found[place] = one
+    return [one for one in found if one is not None]
+
+
 def _rigid_nut(screw: BallScrew, nut: Nut, axial_load: Force) -> RigidNut:
     """The nut as it is between rigid bodies."""
     return RigidNut(
@@ -244,7 +271,11 @@ def _one_by_one(
         deviations = Deviations(*(si_value(f"deviations.{n}", v, "m") for n, v in deviations._asdict().items()))
     raise_if_any(_faults(screw, nut.halves, deviations))
     points = _points(_numbers(screw, nut, point, bodies), compiled)
-    case = _case(screw, nut, bodies, deviations, constant_angle, compiled)
+    return _at_points(_case(screw, nut, bodies, deviations, constant_angle, compiled), points)
+
+
+def _at_points(case: NutCase, points: _Points) -> BallLoads:
+    """The loads of nuts that have the same balls, at some points."""
     solution = _solution(solved, case, points)
     by_ball = [points.all_of(np.moveaxis(part, 0, -1)) for part in solution[:4]]
     plain = (points.all_of(part)[()] for part in solution[4:])
@@ -307,6 +338,13 @@ class _Points:
     def all_of(self, part: Field) -> Field:
         """A result for all points that were asked for; further axes come last."""
         return part[self.places].reshape((*self.shape, *part.shape[1:]))
+
+    def at(self, places: Any) -> _Points:
+        """Some of the points that were asked for; of a single one no others are solved."""
+        chosen = np.arange(self.count)[self.places].reshape(self.shape)[places]
+        if np.ndim(chosen):
+            return dataclasses.replace(self, places=chosen.reshape(-1), shape=chosen.shape)
+        return _Points([n if n.size == 1 else n[chosen, None] for n in self.numbers], 1, slice(None), ())
 
 
 def _points(numbers: Sequence[Any], compiled: bool) -> _Points:

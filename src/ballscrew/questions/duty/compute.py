@@ -533,8 +533,18 @@ class DutyReport(CycleNumbers):
     @lazy
     def balls_under_largest_load(self) -> BallLoads:
         """The loads of the balls under the largest load of the cycle, with its sign."""
+        return loads_of(self.screw_in_motion, self.signed_largest_load)
+
+    @property
+    def screw_in_motion(self) -> BallScrew:
+        """The screw with the preload that it has at the mean speed of the cycle, where it was set at rest."""
+        return _in_motion(self.case, self.duty)
+
+    @property
+    def signed_largest_load(self) -> Force:
+        """The axial load of the largest size, N, with its sign."""
         load = self.duty.axial_load
-        return loads_of(_in_motion(self.case, self.duty), float(load[np.argmax(np.abs(load))]))
+        return float(load[np.argmax(np.abs(load))])
 
     def _of_extremes(self, pressure: Pressure | None) -> Sequence[Check]:
         case, duty = self.case, self.duty

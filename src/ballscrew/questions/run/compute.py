@@ -193,10 +193,13 @@ class Run:
     rolling_share: float
     #: Force between neighbouring balls, N; None in a nut, whose balls have loads of their own.
     ball_to_ball_force: float | None
-    #: The four combinations of load and rotation.
-    quadrants: Mapping[str, Quadrant]
     #: None without a nut.
     nut: NutState | None = None
+
+    @property
+    def quadrants(self) -> Mapping[str, Quadrant]:
+        """The four combinations of load and rotation."""
+        return self.friction.quadrants
 
     @property
     def quantities(self) -> Mapping[str, Quantity]:
@@ -234,8 +237,9 @@ class Run:
             gears = 1.0 if self.case.axis is None else self.case.axis.transmission_ratio
             values["motor_torque"] = self.case.motor.holding_torque * gears
         if nut is not None:
-            values["preload"] = nut.preload
-            values |= {name: getattr(nut.loads, name) for name in ("remaining_preload", "lift_off_load")}
+            values |= {"preload": nut.preload, "remaining_preload": nut.loads.remaining_preload}
+            # a search, of which nothing is said unless the preload is lost
+            values["lift_off_load"] = nut.loads.lift_off_load if nut.preload_is_lost else math.nan
         of_maker, words = _of_own_rule(self.case, nut)
         return values | of_maker, words
 
@@ -304,20 +308,19 @@ def _of_balls(case: Case) -> Run:
         touching=[Touching(1, float(case.screw.contact_angle), float(result.contact_load))],
         rolling_share=float(result.rolling_share),
         ball_to_ball_force=float(result.ball_to_ball_force),
-        quadrants=result.quadrants,
     )
 
 
-def with_nut(case: Case, nut: Nut) -> Run:
-    """The case with this nut in place of its own."""
+def with_nut(case: Case, nut: Nut, known: BallLoads | None = None) -> Run:
+    """The case with this nut in place of its own; the loads of its balls in motion may be ``known``."""
     load, speed = case.operation.axial_load, case.operation.screw_speed
 
     screw = dataclasses.replace(case.screw, nut=nut)
 
-    def friction(load: Any, speed: Any) -> FrictionResult:
-        return case.model(screw, case.lubricant, axial_load=load, screw_speed=speed)
+    def friction(load: Any, speed: Any, loads: BallLoads | None = None) -> FrictionResult:
+        return case.model(screw, case.lubricant, axial_load=load, screw_speed=speed, loads=loads)
 
-    result = friction(load, speed)
+    result = friction(load, speed, known)
     # at rest and without load: together, as a call of the model takes long by itself
     beside = friction(np.array([load, 0.0]), np.array([0.0, speed]))
     loads, half = result.loads, np.shape(result.loads.balls)[-1] // nut.halves
@@ -334,7 +337,6 @@ def with_nut(case: Case, nut: Nut) -> Run:
         touching=_touching(result),
         rolling_share=math.nan,
         ball_to_ball_force=None,
-        quadrants=result.quadrants,
         nut=NutState(
             nut=nut,
             preload=float(preload_of(screw, nut)),

@@ -6,11 +6,10 @@ import dataclasses
 import itertools
 import math
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew.axis.thermal.network import nut_length
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Duration, Force, Length, fields_of
@@ -20,9 +19,10 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.catalogue import assumed, case_text
 from ballscrew.physics.components.nut import NUTS, PRELOADED
 from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction import validity
 from ballscrew.physics.friction.across_groove import in_motion
-from ballscrew.physics.friction.loaded_balls import loads_of
+from ballscrew.physics.friction.loaded_balls import loads_of_each
 from ballscrew.physics.friction.validity import BothTorques
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check
@@ -32,10 +32,12 @@ from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.check.answer import Checked, checked, checks_by_loads
 from ballscrew.questions.duty import compute, verdicts
 from ballscrew.questions.duty.compute import DutyReport
+from ballscrew.questions.run.compute import with_nut
 from ballscrew.questions.select import requirements
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import OBJECTIVES, USUAL_LENGTH, Requirements, reflected_mass, shaft_length
 from ballscrew.questions.shared.every_row import copied, tables_of_row
+from ballscrew.questions.shared.question import Done
 
 #: Preloads where neither need nor row says one: the ends of what vendors give (Rexroth2006: 2 to 10 %), and between.
 USUAL_PRELOADS = ("2 %", "5 %", "10 %")
@@ -94,7 +96,9 @@ class Candidate:
     objectives: Mapping[str, float]
     #: Preload of the nut, N.
     preload: Force
-    #: The loads of the balls under the largest load of the need.
+    #: The largest axial load of the need, N.
+    load: Force
+    #: The loads of the balls under it.
     balls: BallLoads
     #: The run at the operating point, of a motion that of steady travel, with its own checks.
     run: Checked | None = None
@@ -254,6 +258,8 @@ def case_tables(need: Need, variant: Variant) -> dict[str, Any]:
 
 
 def _nut_length(variant: Variant) -> Length:
+    from ballscrew.axis.thermal.network import nut_length  # loads xarray: for lengths that no need gives
+
     row = variant.row
     return nut_length(row.loaded_turns, row.lead, NUTS[variant.nut].halves if variant.nut in NUTS else 1)
 
@@ -280,25 +286,41 @@ def case_of(need: Need, variant: Variant, *, model: str | None, calibration: str
     )
 
 
-def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
-    """A variant with what follows from its loads and sizes alone: one solution of the balls, and no friction."""
-    preload = float(preload_of(case.screw, case.screw.nut))
+class Loaded(NamedTuple):
+    """The case of a variant under the largest load of its need."""
+
+    case: Case
+    #: The screw in motion, and the load with its sign, for which the balls are solved.
+    screw: BallScrew
+    load: Force
+    #: The cycle without its friction, where the need has a motion.
+    planned: DutyReport | None
+
+
+def loaded(need: Need, case: Case) -> Loaded:
+    """The case under the largest load of its need."""
     if need.moves:
         report = compute.planned(case)
-        balls, own = report.balls_under_largest_load, report.checks_by_loads
-        time, load = float(report.life_time), report.largest_load
+        return Loaded(case, report.screw_in_motion, report.signed_largest_load, report)
+    state = OperatingState(0.0, float(case.operation.screw_speed), None)
+    screw = in_motion(case.model, case.screw, case.lubricant, state)
+    return Loaded(case, screw, float(case.operation.axial_load), None)
+
+
+def by_loads(need: Need, variant: Variant, under: Loaded, balls: BallLoads) -> Candidate:
+    """A variant with what follows from its loads and sizes alone, and no friction."""
+    case, report = under.case, under.planned
+    if report is not None:
+        preload, load = float(preload_of(case.screw, case.screw.nut)), report.largest_load
+        own, time = report.checks_by_loads, report.life_time
     else:
-        load = float(case.operation.axial_load)
-        state = OperatingState(0.0, float(case.operation.screw_speed), None)
-        screw = in_motion(case.model, case.screw, case.lubricant, state)
-        preload = float(preload_of(screw, screw.nut))
-        balls = loads_of(screw, load)
+        preload, load = float(preload_of(under.screw, under.screw.nut)), under.load
         own = checks_by_loads(case, preload, float(balls.remaining_preload))
         time = _life_of(own)
     numbers = {
         **dict.fromkeys(OBJECTIVES, math.nan),
         **_of_shaft(need, case),
-        "life": time,
+        "life": float(time),
         "price_index": _price(need, variant),
     }
     required = requirements.by_loads(
@@ -310,47 +332,72 @@ def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
         balls=balls,
         lacks_preload=lacks_preload(need, variant),
     )
-    return Candidate(variant, case, (*own, *required), numbers, preload, balls, life_looked_for=_looked_for(need))
+    return Candidate(variant, case, (*own, *required), numbers, preload, load, balls, life_looked_for=_looked_for(need))
 
 
-def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) -> Candidate:
-    """A variant with all that is computed of it; ``recorded`` where many of its kind are judged."""
+def each_by_loads(
+    need: Need, every: Sequence[Variant], case_of_one: Callable[[Variant], Case], done: Done | None = None
+) -> dict[str, Candidate | InputError]:
+    """Variants by their labels with what follows from loads and sizes alone, or why a variant cannot be judged.
+
+    The balls of all of them are solved together.
+    """
+    found: dict[str, Candidate | InputError] = {}
+    under: dict[str, Loaded] = {}
+    for number, variant in enumerate(every, start=1):
+        try:
+            under[variant.label] = loaded(need, case_of_one(variant))
+        except InputError as error:
+            found[variant.label] = error
+        if done is not None:
+            done(number, len(every))
+    solved = loads_of_each([one.screw for one in under.values()], [one.load for one in under.values()])
+    balls = dict(zip(under, solved, strict=True))
+    for variant in every:
+        label = variant.label
+        if label in found:
+            continue
+        try:
+            loads = balls[label]
+            found[label] = loads if isinstance(loads, InputError) else by_loads(need, variant, under[label], loads)
+        except InputError as error:
+            found[label] = error
+    return found
+
+
+def judged(need: Need, candidate: Candidate, *, recorded: bool = False) -> Candidate:
+    """A candidate with all that is computed of it; ``recorded`` where many of its kind are judged."""
+    variant, case, nut = candidate.variant, candidate.case, candidate.case.nut
     row = variant.row
     notes = [text for name, text in assumed(row).items() if name != "loaded_turns"]
     if need.length_is_stroke and case.installation is not None:
         length = units.shown(case.installation.unsupported_length, fields_of(Installation)["unsupported_length"])
         notes.append(f"unsupported length {length}: {LENGTH_OF_STROKE}")
-    result = checked(row.name, case, [*need.notes, *notes])
+    known = None if need.moves or nut is None or nut.set_at_rest else with_nut(case, nut, candidate.balls)
+    result = checked(row.name, case, [*need.notes, *notes], known)
     report = compute.duty(case, recorded=recorded) if need.moves else None
     starves = Starved.of(result, report)
     numbers = objectives(need, result, report, _price(need, variant), starves)
-    own = result.checks if report is None else report.checks
     balls = result.nut.loads if report is None else report.balls_under_largest_load
-    load = float(case.operation.axial_load) if report is None else report.largest_load
-    preload = result.nut.preload
-    return Candidate(
-        variant,
+    of_loads = requirements.by_loads(
+        need.requirements,
         case,
-        (
-            *own,
-            *requirements.by_loads(
-                need.requirements,
-                case,
-                numbers,
-                preload=preload,
-                largest_load=load,
-                balls=balls,
-                lacks_preload=lacks_preload(need, variant),
-            ),
-            *requirements.of_friction(need.requirements, result, report, numbers),
-        ),
         numbers,
-        preload,
-        balls,
-        result,
-        report,
-        _looked_for(need),
-        starves.records,
+        preload=result.nut.preload,
+        largest_load=candidate.load,
+        balls=balls,
+        lacks_preload=lacks_preload(need, variant),
+    )
+    own = result.checks if report is None else report.checks
+    return dataclasses.replace(
+        candidate,
+        checks=(*own, *of_loads, *requirements.of_friction(need.requirements, result, report, numbers)),
+        objectives=numbers,
+        preload=result.nut.preload,
+        balls=balls,
+        run=result,
+        duty=report,
+        starved=starves.records,
     )
 
 
@@ -450,10 +497,10 @@ def _of_cycle(report: DutyReport, *, starves: bool) -> dict[str, float]:
 
 def _without_load(result: Checked) -> BothTorques | None:
     """Torque of the nut without load as it is given and in a full bath of oil; None where they hardly differ."""
-    case, given = result.run.case, float(result.nut.preload_drag)
-    speed = case.operation.screw_speed
-    if validity.least_replenished(case.model, case.screw, case.lubricant, speed) >= validity.NEARLY_ALL:
-        return None
-    idle = case.model.in_full_bath(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
-    both = BothTorques(OBJECTIVES["preload_torque"].quantity, given, float(idle.screw_torque))
-    return both if validity.differs(both.given, both.flooded) else None
+    case, given, flooded = result.run.case, result.nut.preload_drag, result.nut.flooded_drag
+    if case.screw.nut.set_at_rest and flooded != given:  # in a full bath motion leaves it another preload
+        speed = case.operation.screw_speed
+        idle = case.model.in_full_bath(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
+        flooded = float(idle.screw_torque)
+    both = BothTorques(OBJECTIVES["preload_torque"].quantity, given, flooded)
+    return both if validity.differs(given, flooded) else None

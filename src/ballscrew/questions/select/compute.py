@@ -19,7 +19,6 @@ from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel
 from ballscrew.physics.components.nut import NUTS
 from ballscrew.physics.sizing.checks import failing, verdict_of
-from ballscrew.questions.duty import compute
 from ballscrew.questions.select.candidates import (
     LENGTH_OF_STROKE,
     USUAL_LIFE,
@@ -27,8 +26,8 @@ from ballscrew.questions.select.candidates import (
     Candidate,
     Variant,
     assumes_preload,
-    by_loads,
     case_of,
+    each_by_loads,
     judged,
     variants,
 )
@@ -161,38 +160,33 @@ def select(
     fault are left out, with a note, if any other is good.
     """
     ready = _prepared(need, rows, words, objectives, settings, keep_going=keep_going)
-    asked, every, table = ready.need, ready.variants, ready.table
+    asked, every = ready.need, ready.variants
     if "running_time" not in asked.tables.get("limits", {}):
         hours = units.grouped(round(USUAL_LIFE / 3600))
         note = f"no life was asked for: what lives less than {hours} h is ranked after the others"
         asked = asked.with_note(note)
     recorded = _worth_recording(asked, every)
 
-    def without_friction(variant: Variant) -> Candidate:
-        case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
-        return by_loads(asked, variant, case)
+    def case_of_one(variant: Variant) -> Case:
+        return case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
 
-    by_loads_alone = None
-    if ready.table is None and not complete and len(every) > MOST_JUDGED:
-        by_loads_alone = each({one.label: one for one in every}, without_friction, keep_going=True, done=done)
-        if not by_loads_alone.interrupted:
-            every, note = _most_likely(every, by_loads_alone.found, moves=asked.moves)
-            asked = asked.with_note(note) if note else asked
-    known = {} if by_loads_alone is None else by_loads_alone.found
+    known = each_by_loads(asked, every, case_of_one, done)
+    if ready.table is None and not complete:
+        every, note = _most_likely(every, known)
+        asked = asked.with_note(note) if note else asked
 
     def work(variant: Variant) -> Candidate:
-        candidate = known.get(variant.label) or without_friction(variant)
+        candidate = known[variant.label]
+        if isinstance(candidate, InputError):
+            raise candidate
         if complete or not candidate.cannot_hold:
-            candidate = judged(asked, variant, candidate.case, recorded=variant.nut in recorded)
+            candidate = judged(asked, candidate, recorded=variant.nut in recorded)
         if found_one is not None:
             found_one(candidate)
         return candidate
 
     # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
-    if by_loads_alone is not None and by_loads_alone.interrupted:
-        result = by_loads_alone
-    else:
-        result = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
+    result = each({one.label: one for one in every}, work, keep_going=keep_going or ready.table is None, done=done)
     if asked.length_is_stroke:  # each candidate says its own length
         asked = asked.with_note(f"unsupported length: {LENGTH_OF_STROKE}")
     candidates = list(result.found.values())
@@ -206,26 +200,27 @@ def select(
     )
 
 
-def _most_likely(every: Sequence[Variant], known: Mapping[str, Candidate], *, moves: bool) -> tuple[list[Variant], str]:
+def _most_likely(
+    every: Sequence[Variant], known: Mapping[str, Candidate | InputError]
+) -> tuple[Sequence[Variant], str]:
     """The variants whose friction is computed where their loads allow more than :data:`MOST_JUDGED`, and a note.
 
     Friction at a given speed of the nut grows about with load and preload, and with diameter over lead.
     """
 
-    def friction(variant: Variant) -> float:
-        case, preload = known[variant.label].case, known[variant.label].preload
-        load = compute.planned(case).largest_load if moves else float(case.operation.axial_load)
-        return (abs(load) + preload) * float(case.screw.pitch_circle_diameter / case.screw.lead)
+    def friction(candidate: Candidate) -> float:
+        screw = candidate.case.screw
+        return (abs(candidate.load) + candidate.preload) * float(screw.pitch_circle_diameter / screw.lead)
 
-    able = [variant for variant in every if variant.label in known and not known[variant.label].cannot_hold]
+    able = [one for one in known.values() if isinstance(one, Candidate) and not one.cannot_hold]
     if len(able) <= MOST_JUDGED:
-        return list(every), ""
-    kept = {variant.label for variant in sorted(able, key=friction)[:MOST_JUDGED]}
+        return every, ""
+    left_out = {one.variant.label for one in sorted(able, key=friction)[MOST_JUDGED:]}
     note = (
         f"of {len(able)} candidates that can hold by their loads, the {MOST_JUDGED} with the least load times diameter "
         "over lead are judged: name rows, or --complete for all"
     )
-    return [one for one in every if one.label in kept or (one.label in known and known[one.label].cannot_hold)], note
+    return [one for one in every if one.label not in left_out], note
 
 
 def plan(
