@@ -14,7 +14,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.screw_tables.catalogue import case_text, chosen
+from ballscrew.cases.screw_tables.catalogue import case_text, chosen, named
 from ballscrew.cases.screw_tables.nut_kinds import kind_in, kind_of
 from ballscrew.physics.components.nut import NUTS
 from ballscrew.physics.sizing.catalogue import SMALLEST_BALL, CatalogueRow, catalogue, printed_rows
@@ -381,3 +381,14 @@ def test_the_head_of_a_case_calls_a_preload_an_example_only_where_it_is_one():
     assert examples in case_text(double)
     assert others in case_text(dataclasses.replace(double, preload=2400.0))
     assert others in case_text(dataclasses.replace(double, preload_share=0.05))
+
+
+@pytest.mark.parametrize("name", ["BNFN4010-5", "bnfn 4010-5", "THK BNFN4010-5", "THK BNFN 4010-5", "thk-bnfn4010-5"])
+def test_a_part_number_is_found_as_its_catalogue_prints_it(name):
+    assert named(catalogue(), name).name == "thk-bnfn4010-5"
+
+
+def test_a_ball_that_no_catalogue_prints_is_marked():
+    thk, hiwin = (catalogue()[name] for name in ("thk-bnfn4010-5", "hiwin-40-5k5"))
+    assert 'ball_diameter = "6.35 mm"               # an estimate, by the depth of the groove' in case_text(thk)
+    assert "# an estimate" not in case_text(hiwin)

@@ -97,7 +97,8 @@ def _mark(row: CatalogueRow) -> str:
     """Remark on the ratings and the torque of a row of a list, in few words."""
     texts = notes(row)
     differs = any(note.startswith(("dynamic", "static")) for note in texts)
-    return ", ".join(filter(None, ["ratings differ" * differs, "no torque" * bool(row.refusal)]))
+    ball = "ball estimated" * bool(row.ball_diameter_source)
+    return ", ".join(filter(None, [ball, "ratings differ" * differs, "no torque" * bool(row.refusal)]))
 
 
 def _number(row: CatalogueRow, name: str) -> str:

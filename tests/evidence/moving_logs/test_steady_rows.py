@@ -100,12 +100,18 @@ def test_a_motion_that_the_log_does_not_tell_is_refused_in_one_line(ballscrew, a
     assert "moves too little above its noise" in line
 
 
-def test_options_of_logs_of_controllers(ballscrew):
-    for options, text in (
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
         (("--axis", "Q7", *OPTIONS), "--axis: no heading begins with it (Q7)"),
-        (("--axis", "X1", *OPTIONS[2:]), 'has no column "time [s]"'),
-    ):
-        process = ballscrew("fit", FILES[0], "--moving", *options)
-        assert process.returncode == 2
-        (line,) = process.stderr.strip().splitlines()
-        assert text in line
+        (("--axis", "X1", *OPTIONS[2:]), 'at a fixed period: --period "0.1 s"'),
+        (OPTIONS, "say which axis: --axis X1 or --axis Y1"),
+        (OPTIONS[2:], "say which axis: --axis X1 or --axis Y1"),
+        (("--axis", "X1", *OPTIONS), "or --steady for friction over speed in amperes"),
+    ],
+)
+def test_options_of_logs_of_controllers(ballscrew, options, text):
+    process = ballscrew("fit", FILES[0], "--moving", *options)
+    assert process.returncode == 2
+    (line,) = process.stderr.strip().splitlines()
+    assert text in line

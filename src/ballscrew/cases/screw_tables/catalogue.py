@@ -252,8 +252,9 @@ def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: st
     for known in rows:
         if asked == known.casefold():
             return rows[known]
-        # the part number of a general catalogue is the name without the maker
-        if asked == known.partition("-")[2].casefold() and rows[known].family:
+        # the part number of a general catalogue is the name without the maker, blanks where one likes
+        numbers = (known.partition("-")[2].casefold(), known.casefold().replace("-", "", 1))
+        if "".join(asked.split()) in numbers and rows[known].family:
             return rows[known]
     code = _ORDER_CODE.search(name)
     sizes = None if code is None else (float(code[1]), float(code[2]))
@@ -287,6 +288,10 @@ def _distance(row: CatalogueRow, diameter: float, lead: float) -> float:
 # -- for people -----------------------------------------------------------------------------------
 
 
+#: Where the balls of rows shipped are from that their maker does not print.
+_BY_GROOVE = "an estimate, by the depth of the groove and the load ratings"
+
+
 def assumed(row: CatalogueRow) -> dict[str, str]:
     """Values, in words, that stand for what a catalogue leaves out, by field."""
     angle = units.shown(row.contact_angle, FIELDS["contact_angle"])
@@ -301,7 +306,7 @@ def assumed(row: CatalogueRow) -> dict[str, str]:
             "pitch circle as large as the nominal diameter; those that catalogues list are mostly 1.5 to 5 % larger"
         )
     if row.ball_diameter_source == headings.ESTIMATED:
-        values["ball_diameter"] = "ball diameter: an estimate, by the depth of the groove and the load ratings"
+        values["ball_diameter"] = f"ball diameter: {_BY_GROOVE}"
     elif row.ball_diameter_source:
         values["ball_diameter"] = f"ball diameter: {row.ball_diameter_source}"
     values["loaded_turns"] = f"{row.turns_without_load:g} turns without load where the balls leave and enter" + (
@@ -352,7 +357,7 @@ def case_text(row: CatalogueRow, estimates: Sequence[Estimate] = ()) -> str:
         "loaded_balls": f"{row.balls_per_turn} a turn, {row.loaded_turns:g} of {row.turns:g} turns; one nut body",
         "contact_angle": "not listed, the usual one" if "contact_angle" in unlisted else "",
         "screw_conformity": f"not listed, good to {CONFORMITY_DOUBT:g}" if "conformity" in unlisted else "",
-        "ball_diameter": f"estimated: {row.ball_diameter_source}" if row.ball_diameter_source else "",
+        "ball_diameter": _comment_of_ball(row),
     }
     for one in estimates:
         comments |= dict.fromkeys(_ESTIMATED_AS.get(one.name, (one.name,)), _comment(one))
@@ -390,6 +395,12 @@ def case_text(row: CatalogueRow, estimates: Sequence[Estimate] = ()) -> str:
     ]
     # no letters that a terminal or a redirection could write in another encoding than UTF-8
     return "\n".join(lines).encode("ascii", "backslashreplace").decode()
+
+
+def _comment_of_ball(row: CatalogueRow) -> str:
+    if row.ball_diameter_source == headings.ESTIMATED:
+        return _BY_GROOVE
+    return f"estimated: {row.ball_diameter_source}" if row.ball_diameter_source else ""
 
 
 #: Fields of a case that an estimate stands in, where they have other names.

@@ -92,16 +92,27 @@ def moving_layout(path: Path, records: Sequence[Record], flags: Mapping[str, str
     try:
         result = layout(path, records, flags, MOVING_LOG, () if has_time else ("time",))
     except InputError as error:
-        raise InputError(*[_or_period(fault) for fault in error.faults]) from None
+        axes = _axes(records)
+        raise InputError(*[_with_option(fault, axes) for fault in error.faults]) from None
     _check_needed(path, result.headings)
     return result
 
 
-def _or_period(fault: Fault) -> Fault:
-    """The fault with the option that stands in for a column of time."""
+def _with_option(fault: Fault, axes: Sequence[str]) -> Fault:
+    """The fault with the option that makes up for it: of a log of several axes, or without a time."""
+    if axes:
+        return dataclasses.replace(fault, remedy=f"say which axis: --axis {' or --axis '.join(axes)}")
     if fault.id != NO_COLUMN or fault.column != "time":
         return fault
     return dataclasses.replace(fault, remedy=f'{fault.remedy}; where rows follow at a fixed period: --period "0.1 s"')
+
+
+def _axes(records: Sequence[Record]) -> list[str]:
+    """The axes whose speeds or positions a log of several has, by what their headings begin with."""
+    matches = (_OF_AXIS.fullmatch(str(cell)) for record in records[:WITHIN] for cell in record.cells)
+    paths = [column for column in COLUMNS if column.name in PATHS]
+    words = ((match[1], _in_words(match[2])) for match in matches if match)
+    return [*dict.fromkeys(axis for axis, name in words if any(column.is_named(name) for column in paths))]
 
 
 def headings_of_axis(records: Sequence[Record], axis: str) -> list[Record]:
@@ -123,10 +134,14 @@ def headings_of_axis(records: Sequence[Record], axis: str) -> list[Record]:
 
 def _unit_of_controller(name: str) -> str:
     """A heading in words, ``Actual Velocity [mm/s]`` of ``ActualVelocity``."""
-    words = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).replace("_", " ")
+    words = _in_words(name)
     column = next((column for column in COLUMNS if column.is_named(words)), None)
     unit = "" if column is None else _OF_CONTROLLERS.get(column.name, "")
     return f"{words} [{unit}]" if unit else words
+
+
+def _in_words(name: str) -> str:
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).replace("_", " ")
 
 
 def has_columns(records: Sequence[Record], flags: Mapping[str, str]) -> bool:

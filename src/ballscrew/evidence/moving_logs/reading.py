@@ -194,9 +194,8 @@ def _force(name: str, result: _Numbers, lead: float, torque_constant: float | No
     column = next(one for one in FORCES if one in result)
     values = result[column]
     if column == "current" and torque_constant is None:
-        raise InputError(
-            Fault(f"{name} column {column}", "needs the torque constant", "", '--torque-constant "0.5 N m/A"')
-        )
+        remedy = '--torque-constant "0.5 N m/A", or --steady for friction over speed in amperes'
+        raise InputError(Fault(f"{name} column {column}", "needs the torque constant", "", remedy))
     if column == "voltage" and not math.isfinite(gain):
         raise InputError(Fault(f"{name} column {column}", "needs the gain to the force", "", '--gain "35 N/V"'))
     if column == "power":
