@@ -314,9 +314,6 @@ def numbers() -> dict[str, str]:
     by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
     values: dict[str, str] = {}
     for key, name in (("double", "rexroth-double-nut"), ("single", "rexroth-single-nut")):
-        for who, fitted in (("raw", False), ("calibrated", True)):
-            entry = by_key[name, fitted]
-            values[f"{key}_{who}_share"] = _percent(entry.share_in_band)
         outside = [f"{point.name} ({point.ratio:.2f})" for point in by_key[name, True].points if point.in_band is False]
         values[f"{key}_calibrated_outside"] = ", ".join(outside) or "none"
     for who, fitted in (("raw", False), ("calibrated", True)):
@@ -327,7 +324,7 @@ def numbers() -> dict[str, str]:
     values |= {"single_steep": f"{steep:.2f}", "single_fine": f"{fine:.2f}"}
     balan = by_key["balan-2015", False]
     slow, fast = min(p.ratio for p in balan.points), max(p.ratio for p in balan.points)
-    values |= {"balan_mean": _mean(balan), "balan_slow": f"{slow:.2f}", "balan_fast": f"{fast:.2f}"}
+    values |= {"balan_slow": f"{slow:.2f}", "balan_fast": f"{fast:.2f}"}
     ratings = by_key["hiwin-ratings", False].points
     off = [p for p in ratings if abs(p.ratio - 1) > C_A or abs(p.definitions["static"] - 1) > C_0A]
     rigid = by_key["rexroth-rigidity", False]
@@ -347,8 +344,6 @@ def numbers() -> dict[str, str]:
         f" {p.definitions['one_ball_less']:.3f} and {p.definitions['static_one_ball_less']:.3f}"
         for p in off
     )
-    for key, fitted in (("raw", False), ("calibrated", True)):
-        values[f"chart_{key}"] = f"{by_key['chart-friction', fitted].mean_ratio:.2f}"
     (low, high) = {(p.band.low, p.band.high) for p in by_key["xjtu", False].points}.pop()
     values |= {"xjtu_low": f"{low:.2f}", "xjtu_high": f"{high:.2f}"}
     values |= _numbers_of_stock(by_key["hiwin-stock", False], by_key["hiwin-stock", True])
@@ -356,11 +351,6 @@ def numbers() -> dict[str, str]:
     for maker, group in bearings.items():
         torques = [point.definitions["torque"] for point in group.points]
         values[f"bearings_{maker.lower()}_torque"] = f"{min(torques):.1f} to {max(torques):.1f}"
-    for key, name in (("emps", "emps"), ("actuator", "thk-kr4620a")):
-        values[key] = "{:.2f} to {:.2f}".format(*by_key[name, False].range_ratio)
-    small = by_key["thk-stock", False].groups
-    for key, group in zip(("small_full", "small_spacers"), small.values(), strict=True):
-        values[key] = "{:.2f} to {:.2f}".format(*group.range_ratio)
     values |= _numbers_of_agreement(by_key)
     double = [one.range_ratio for name, one in by_key["emps", False].groups.items() if name.startswith("double")]
     values["emps_double"] = f"{min(low for low, _ in double):.2f} to {max(high for _, high in double):.2f}"
@@ -374,8 +364,6 @@ def _numbers_of_agreement(by_key) -> dict[str, str]:
     rule = next(rule for rule in double.rules if rule.rule == "rexroth")
     ranges = {"could_be": screws, "plain": screws.groups["double"], "sealed": screws.groups["double, two wipers"]}
     return {
-        "double_below": _percent(1 - double.mean_ratio),
-        "single_below": _percent(1 - by_key["rexroth-single-nut", False].mean_ratio),
         "own_rule": f"{rule.mean_ratio:.3f} ± {rule.std_ratio:.3f}",
         "double_ratio": _spread(double),
         "thk_mean": f"{thk.mean_ratio:.2f}",
