@@ -363,9 +363,6 @@ def numbers() -> dict[str, str]:
     values["ratings_good"] = f"{len(ratings) - len(off)} of {len(ratings)}"
     (low, high) = {(p.band.low, p.band.high) for p in by_key["xjtu", False].points}.pop()
     values |= {"xjtu_low": f"{low:.2f}", "xjtu_high": f"{high:.2f}"}
-    for kind in ("double", "offset"):
-        share = by_key["hiwin-stock", False].groups[kind].share_in_uncertainty_band
-        values[f"stock_{kind}_own"] = _percent(share)
     bearings = by_key["support-bearings", False].groups
     for maker, group in bearings.items():
         torques = [point.definitions["torque"] for point in group.points]
