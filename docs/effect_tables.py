@@ -19,7 +19,6 @@ def parts() -> dict[str, Any]:
         **{f"{name}.svg": functools.partial(draw, CASES) for name, draw in figures.DRAWN.items()},
         **{f"steps_{case.name}.md": steps_table(case) for case in CASES.values()},
         "sensitivities.md": sensitivity_table(),
-        "largest.md": sensitivity_table(3),
     }
 
 
@@ -40,8 +39,8 @@ def steps_table(case) -> str:
     return markdown_table(heading, rows, numbers=True)
 
 
-def sensitivity_table(rows: int | None = None) -> str:
-    """Assumptions of the reference model, and the change of the torque with each: all, or the largest."""
+def sensitivity_table() -> str:
+    """Assumptions of the reference model, and the change of the torque with each."""
     every = {name: sensitivities(case) for name, case in CASES.items()}
     by_name = {name: {one.description: one for one in found} for name, found in every.items()}
     heading = ["assumption", "default", "alternatives", *(case.title for case in CASES.values())]
@@ -52,7 +51,7 @@ def sensitivity_table(rows: int | None = None) -> str:
             first.alternatives,
             *(_span(found[first.description]) for found in by_name.values()),
         ]
-        for first in every["catalogue"][:rows]
+        for first in every["catalogue"]
     ]
     return markdown_table(heading, rows)
 

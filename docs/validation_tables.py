@@ -47,6 +47,7 @@ def parts():
         "summary.md": summary(),
         "vendors.md": vendors_table(),
         "agreement.md": agreement_table(),
+        "contradiction.md": contradiction_table(),
         "calibration.md": calibration_table(),
         "rivals.md": fit_calibration.rivals_table(),
         "strata.md": fit_calibration.strata_table(),
@@ -280,6 +281,31 @@ def definitions_table() -> str:
     return _table(lines)
 
 
+def contradiction_table() -> str:
+    """What the model and three rules give of the torque that three makers state of a preloaded nut."""
+    entries = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
+    kinds = {"HIWIN's list, double": "double", "HIWIN's list, offset": "offset"}
+
+    def stated(fitted: bool) -> dict:
+        stock = entries["hiwin-stock", fitted].groups
+        return {
+            "Rexroth's table, double": entries["rexroth-double-nut", fitted],
+            **{name: stock[kind] for name, kind in kinds.items()},
+            "THK's example, double": entries["thk-jis", fitted],
+        }
+
+    lines = [["", *stated(False)]]
+    for words, fitted in (("the model", False), ("the model, calibrated to Rexroth", True)):
+        lines.append([words, *map(_spread, stated(fitted).values())])
+    for words, law in (
+        ("Rexroth's rule", "rexroth"),
+        ("HIWIN's rule", "hiwin"),
+        ("JIS B 1192, as THK computes", "jis"),
+    ):
+        lines.append([words, *(f"{entry.mean_laws[law]:.2f}" for entry in stated(False).values())])
+    return _table(lines)
+
+
 def calibration_table() -> str:
     """The calibrated numbers, their errors, and what is left."""
     lines = [["calibration", "number", "where", "value", "standard error"]]
@@ -314,20 +340,16 @@ def numbers() -> dict[str, str]:
     by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
     values: dict[str, str] = {}
     for key, name in (("double", "rexroth-double-nut"), ("single", "rexroth-single-nut")):
-        for who, fitted in (("raw", False), ("calibrated", True)):
-            entry = by_key[name, fitted]
-            values[f"{key}_{who}_share"] = _percent(entry.share_in_band)
         outside = [f"{point.name} ({point.ratio:.2f})" for point in by_key[name, True].points if point.in_band is False]
         values[f"{key}_calibrated_outside"] = ", ".join(outside) or "none"
     for who, fitted in (("raw", False), ("calibrated", True)):
         limits = by_key["rexroth-single-nut", fitted].upper_limits
         values[f"single_{who}_above"] = f"{sum(apart.ratio > 1 for apart in limits)} of {len(limits)}"
-    values["thk_calibrated_mean"] = f"{by_key['thk-jis', True].mean_ratio:.2f}"
     steep, fine = _steep_and_fine(by_key["rexroth-single-nut", True])
     values |= {"single_steep": f"{steep:.2f}", "single_fine": f"{fine:.2f}"}
     balan = by_key["balan-2015", False]
     slow, fast = min(p.ratio for p in balan.points), max(p.ratio for p in balan.points)
-    values |= {"balan_mean": _mean(balan), "balan_slow": f"{slow:.2f}", "balan_fast": f"{fast:.2f}"}
+    values |= {"balan_slow": f"{slow:.2f}", "balan_fast": f"{fast:.2f}"}
     ratings = by_key["hiwin-ratings", False].points
     off = [p for p in ratings if abs(p.ratio - 1) > C_A or abs(p.definitions["static"] - 1) > C_0A]
     rigid = by_key["rexroth-rigidity", False]
@@ -336,31 +358,15 @@ def numbers() -> dict[str, str]:
         values[f"rigidity_{key}"] = f"{rigid.mean_definitions[name]:.2f}"
     values["rigidity_elastic_scatter"] = _relative_scatter([p.definitions["elastic_bodies"] for p in rigid.points])
     values["rigidity_factor"] = f"{ACCURACY_FACTOR:g}"
-    values["rigidity_highest"] = ", ".join(
-        f"{point.name} {point.ratio:.2f}" for point in sorted(rigid.points, key=lambda p: -p.ratio)[:3]
-    )
     values["chain_share"] = _percent(_chain_share("double", DoubleNut, (7, 10)))
     values["chain_share_single"] = _percent(_chain_share("oversize-balls", OversizeBallNut, (5,)))
     values["ratings_good"] = f"{len(ratings) - len(off)} of {len(ratings)}"
-    values["ratings_off"] = "; ".join(
-        f"{p.name}: C_a {p.ratio:.3f}, C_0a {p.definitions['static']:.3f}, with one ball less a turn"
-        f" {p.definitions['one_ball_less']:.3f} and {p.definitions['static_one_ball_less']:.3f}"
-        for p in off
-    )
-    for key, fitted in (("raw", False), ("calibrated", True)):
-        values[f"chart_{key}"] = f"{by_key['chart-friction', fitted].mean_ratio:.2f}"
     (low, high) = {(p.band.low, p.band.high) for p in by_key["xjtu", False].points}.pop()
     values |= {"xjtu_low": f"{low:.2f}", "xjtu_high": f"{high:.2f}"}
-    values |= _numbers_of_stock(by_key["hiwin-stock", False], by_key["hiwin-stock", True])
     bearings = by_key["support-bearings", False].groups
     for maker, group in bearings.items():
         torques = [point.definitions["torque"] for point in group.points]
         values[f"bearings_{maker.lower()}_torque"] = f"{min(torques):.1f} to {max(torques):.1f}"
-    for key, name in (("emps", "emps"), ("actuator", "thk-kr4620a")):
-        values[key] = "{:.2f} to {:.2f}".format(*by_key[name, False].range_ratio)
-    small = by_key["thk-stock", False].groups
-    for key, group in zip(("small_full", "small_spacers"), small.values(), strict=True):
-        values[key] = "{:.2f} to {:.2f}".format(*group.range_ratio)
     values |= _numbers_of_agreement(by_key)
     double = [one.range_ratio for name, one in by_key["emps", False].groups.items() if name.startswith("double")]
     values["emps_double"] = f"{min(low for low, _ in double):.2f} to {max(high for _, high in double):.2f}"
@@ -369,36 +375,17 @@ def numbers() -> dict[str, str]:
 
 def _numbers_of_agreement(by_key) -> dict[str, str]:
     """Numbers in the text of the page on agreement."""
-    double, thk, screws = (by_key[name, False] for name in ("rexroth-double-nut", "thk-jis", "xjtu"))
-    stock = by_key["hiwin-stock", False].groups
+    double, screws = (by_key[name, False] for name in ("rexroth-double-nut", "xjtu"))
     rule = next(rule for rule in double.rules if rule.rule == "rexroth")
     ranges = {"could_be": screws, "plain": screws.groups["double"], "sealed": screws.groups["double, two wipers"]}
     return {
-        "double_below": _percent(1 - double.mean_ratio),
-        "single_below": _percent(1 - by_key["rexroth-single-nut", False].mean_ratio),
         "own_rule": f"{rule.mean_ratio:.3f} ± {rule.std_ratio:.3f}",
         "double_ratio": _spread(double),
-        "thk_mean": f"{thk.mean_ratio:.2f}",
-        "double_jis": f"{double.mean_laws['jis']:.2f}",
-        "thk_by_rexroth": f"{thk.mean_laws['rexroth']:.2f}",
         "rings": _spread(by_key["balan-2015", False]),
         "screws": str(len(screws.points)),
         "screws_within": str(sum(bool(point.in_band) for point in screws.points)),
         **{f"screws_{key}": "{:.2f} to {:.2f}".format(*one.range_ratio) for key, one in ranges.items()},
-        **{f"stock_{kind}_ratio": f"{stock[kind].mean_ratio:.2f}" for kind in ("double", "offset")},
-        **{f"stock_{kind}_hiwin": f"{stock[kind].mean_laws['hiwin']:.2f}" for kind in ("double", "offset")},
     }
-
-
-def _numbers_of_stock(raw, calibrated_entry) -> dict[str, str]:
-    """Numbers of HIWIN's stock list: its double nuts, and those with an offset."""
-    values: dict[str, str] = {}
-    for kind in ("double", "offset"):
-        group = raw.groups[kind]
-        values[f"stock_{kind}_own"] = _percent(group.share_in_uncertainty_band)
-        values[f"stock_{kind}_jis"] = f"{group.mean_laws['jis']:.2f}"
-        values[f"stock_{kind}_calibrated"] = _spread(calibrated_entry.groups[kind])
-    return values
 
 
 def _steep_and_fine(entry) -> tuple[float, float]:

@@ -68,8 +68,10 @@ def table(found: Sequence[tuple[Tally, float]], heading: str) -> str:
     """The part of the page that a run writes."""
     head = "| section | tried | seconds | answered | refused or flagged | wrong |\n|---|---|---|---|---|---|"
     lines = [heading, "", head, *(row(tally, seconds) for tally, seconds in found)]
+    lines += ["", "| section | what is tried | wrong, beside what is wrong everywhere |", "|---|---|---|"]
+    lines += [described(tally.name) for tally, _ in found]
     for tally, _ in found:
-        lines += ["", *description(tally)]
+        lines += ["", *tally.notes] if tally.notes else []
     return "\n".join(lines) + "\n"
 
 
@@ -81,11 +83,10 @@ def row(tally: Tally, seconds: float) -> str:
     return f"| {tally.name} | {tried} | {seconds:.0f} | {numbers} |"
 
 
-def description(tally: Tally) -> list[str]:
-    """What a section tries, what is wrong, and its notes."""
-    _, *words = inspect.getdoc(SECTIONS[tally.name]).split("\n\n")
-    first = f"**{tally.name}**: {' '.join(' '.join(words).split())}"
-    return [first, "", *tally.notes] if tally.notes else [first]
+def described(name: str) -> str:
+    """What a section tries, and what is wrong in it, by the docstring of its module."""
+    _, tried, wrong = (" ".join(part.split()) for part in inspect.getdoc(SECTIONS[name]).split("\n\n"))
+    return f"| {name} | {tried} | {wrong.removeprefix('*Wrong*: ')} |"
 
 
 def main() -> None:

@@ -3,9 +3,8 @@
 The example case files and one with all tables, with numbers, units, names, types, lines, sections, letters and bytes
 changed; read, run and written as JSON and text in process, one in 60 also by `ballscrew run`.
 
-*Wrong*: an exception other than `InputError`; a warning of NumPy; a number that is not finite without a warning; a
-refusal after more than 10 s (1 s is asked for; other work on the machine is allowed for); of the command a traceback,
-an exit code other than 0 and 2, output with exit code 2, or another answer than in process.
+*Wrong*: a refusal after more than 10 s (1 s is asked for; other work on the machine is allowed for); of the command
+output with exit code 2, or another answer than in process.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ Loads, speeds, preloads and temperatures of both signs and of every power of ten
 the largest, for the three models with a nut of each kind, in the interpreter in C that programs and FMUs carry.
 
 *Wrong*: another number than the model in Python to 1e-12 of the largest part of its kind, a NaN on one side only,
-another validity; a process that dies.
+another validity.
 """
 
 from __future__ import annotations

@@ -1,11 +1,9 @@
 """Files that are much larger than they look, or than they need be, read by the commands under a limit of memory.
 
-Logs, traces and catalogues of which a few kilobytes unpack to gigabytes (XLSX with shared texts, with cells and with
-one far cell; MATLAB 5 with a packed and with a pretended size; MATLAB 7.3 with a packed array), CSV of 100,000 columns,
-of one line of 100 MB, of one cell of 100 MB and of 10,000,000 rows; by `fit`, `duty --trace` and `catalogue list
---rows`.
+Logs, traces and catalogues of which a few kilobytes unpack to gigabytes (XLSX, MATLAB 5, MATLAB 7.3), CSV of 100,000
+columns, of one line or one cell of 100 MB and of 10,000,000 rows; by `fit`, `duty --trace` and `catalogue list --rows`.
 
-*Wrong*: more than 3 GB of memory; more than 150 s of processor; a traceback; an exit code other than 0 and 2.
+*Wrong*: more than 3 GB of memory; more than 150 s of processor.
 """
 
 from __future__ import annotations

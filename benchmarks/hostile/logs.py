@@ -1,11 +1,10 @@
 """Mutated logs of torques, read and fitted.
 
 Logs of 40 to 120 rows as CSV, XLSX, MATLAB 5 and MATLAB 7.3 with other separators, decimal commas, headings, units,
-encodings, gaps, texts, outliers, repeated rows, clocks that start again, and damaged bytes (in XLSX also of what is
-packed); read and fitted, one in two with `--keep-going`.
+encodings, gaps, texts, outliers, repeated rows, clocks that start again, and damaged bytes; read and fitted, one in two
+with `--keep-going`.
 
-*Wrong*: an exception other than `InputError`; a warning of NumPy; an estimate that is not finite; a process that dies
-or is silent for 30 s.
+*Wrong*: a process that is silent for 30 s.
 """
 
 from __future__ import annotations

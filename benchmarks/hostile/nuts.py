@@ -3,9 +3,8 @@
 Nuts of the four kinds with 5 to 100 balls a half, elastic bodies, deviations and losses, at loads from nothing through
 lift-off and speeds from rest to 5000 rpm; in a fifth of them numbers are replaced by those that no nut has. All models.
 
-*Wrong*: an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, a
-negative friction, a ball that is pulled, or loads that did not converge; a model without four contacts that takes
-oversize balls.
+*Wrong*: at a valid point a negative friction, a ball that is pulled, or loads that did not converge; a model without
+four contacts that takes oversize balls.
 """
 
 from __future__ import annotations

@@ -1,12 +1,11 @@
 """Commands that write, into places that are full, closed, taken or somebody else's.
 
-Each command that writes, into a full disk (a file system of 16 kB), a file system that is read only, a folder whose
-name is a file's, a file that is a folder, a link to nothing, a link to another file, and with a standard output that is
-full or closed; an older file stands in the place.
+Each command that writes, into a full disk, a file system that is read only, a folder whose name is a file's, a file
+that is a folder, a link to nothing, a link to another file, and with a standard output that is full or closed; an older
+file stands in the place.
 
-*Wrong*: a traceback; an exit code other than 0 and 2, or 1 where a sweep stopped; a message of several lines or none; a
-file that is half written, an older one that has changed, or one left beside it; a file elsewhere that a link pointed at
-and that has changed.
+*Wrong*: a message of several lines or none; a file that is half written, an older one that has changed, or one left
+beside it; a file elsewhere that a link pointed at and that has changed.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 """Mutated requests to a server: bodies, headers, paths, methods, bytes that are no request, and slow clients.
 
-Requests to `ballscrew serve` from 8 clients: bodies with mutated cases, options and bytes, those of the tests, other
-paths, methods, headers and queries, bytes that are no request, clients that leave, and 20 that send half a request and
-wait; one in 20 is a usual request.
+Requests to `ballscrew serve` from 8 clients: bodies with mutated cases, options and bytes, other paths, methods,
+headers and queries, bytes that are no request, clients that leave, and 20 that send half a request and wait; one in 20
+is a usual request.
 
-*Wrong*: a status of 500 or more; no answer, or none within 60 s; an answer without the security headers; a usual
-request that is not answered with 200; a server that is dead or has written to standard error.
+*Wrong*: a status of 500 or more; no answer within 60 s; an answer without the security headers; a usual request that is
+not answered with 200; a server that has written to standard error.
 """
 
 from __future__ import annotations

@@ -4,10 +4,10 @@ Screws, oils and operating points drawn from all that is sold and a little more;
 replaced by zero, negative, tiny, huge, infinite or NaN. The three models on arrays; one in 50 also by the constructors,
 one by one.
 
-*Wrong*: an exception other than `InputError`; a warning of NumPy; at a valid point a torque that is not finite, an
-efficiency that is not finite where the screw drives the load, or a number elsewhere, a negative part (of the torque as
-printed, else of the dissipated power), or power in that is not power lost to 1e-9 (corrected, reference); a point valid
-in an array that the constructor refuses, or whose torque differs from that alone by more than 1e-9.
+*Wrong*: at a valid point an efficiency that is not finite where the screw drives the load, or is finite elsewhere, a
+negative part (of the torque as printed, else of the dissipated power), or power in that is not power lost to 1e-9
+(corrected, reference); a point valid in an array that the constructor refuses, or whose torque differs from that alone
+by more than 1e-9.
 """
 
 from __future__ import annotations

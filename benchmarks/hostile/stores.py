@@ -1,12 +1,11 @@
 """Damaged stores of sweeps: checked, resumed, and compared with an undamaged one.
 
-Kinds of damage, each on a finished store and on one with 12 of 21 blocks: every kind of file removed, cut, emptied,
-extended, flipped, zeroed, exchanged, replaced by a folder, a link and a link to nothing; locks, other plans, formats,
-models and folders; files of a sibling store in their places, by kind and at random, as a partial copy leaves them. Then
-`bs.verify`, and the same sweep again (of a finished store with and without `verify=True`).
+Finished stores and stores with 12 of 21 blocks: every kind of file removed, cut, emptied, extended, flipped, zeroed,
+exchanged, replaced by a folder or a link; locks, other plans, formats, models and folders; files of a sibling store in
+their places, as a partial copy leaves them. Then `bs.verify`, and the same sweep again.
 
 *Wrong*: a store with changed files that `bs.verify` calls good; numbers after the sweep, or read from it, that are not
-those of the undamaged store; an exception other than `InputError` or a stopped sweep in a line.
+those of the undamaged store.
 """
 
 from __future__ import annotations

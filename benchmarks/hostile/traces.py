@@ -1,11 +1,9 @@
 """Mutated recorded motions, from which a duty is computed.
 
-Recorded motions of 20 to 200 rows as CSV, XLSX, MATLAB 5 and MATLAB 7.3, with the damage of the logs, with nothing but
-NUL, blank lines, separators or one row, with jumps, rests and clocks that stand still; the duty of a vertical axis over
-each, as JSON and as text.
+Recorded motions of 20 to 200 rows with the damage of the logs, with nothing but NUL, blank lines, separators or one
+row, with jumps, rests and clocks that stand still; the duty of a vertical axis over each, as JSON and as text.
 
-*Wrong*: an exception other than `InputError`; a warning of NumPy; a torque or an energy that is not finite without a
-warning; a process that dies or is silent for 30 s.
+*Wrong*: a process that is silent for 30 s.
 """
 
 from __future__ import annotations

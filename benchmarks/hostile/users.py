@@ -4,7 +4,7 @@ Users of one `ballscrew serve` at the same time for three minutes, each with a r
 answer: run, sweep, band, comparison, catalogue and now and then a report (the column counts requests).
 
 *Wrong*: an answer other than the one computed in process, to 1e-10; a status other than 200 and 429 (busy: counted as
-refused); no answer within 60 s; a server that is dead or has written to standard error.
+refused); no answer within 60 s; a server that has written to standard error.
 """
 
 from __future__ import annotations

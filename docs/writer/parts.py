@@ -15,7 +15,6 @@ PARTS = {
     "nuts": "effect_study.nut_figures:parts",
     "four_point.md": "four_point:table",
     "accuracy": "reference:parts",
-    "claims.md": "ballscrew.questions.reproduce.reproduction:claims_table",
     "olaru2005": "ballscrew.questions.reproduce.reproduction:reproduce_olaru2005",
     "effects": "effect_tables:parts",
     "theory": "theory_figures:parts",

@@ -31,7 +31,6 @@ EXCEPTIONS = {
         "needs the records of the benchmark, of which no copy is here as their licence is not stated"
     ),
     '.venv/bin/pip install ".[fast]"': "a test must not change what is installed, nor need a network",
-    ".venv/bin/python benchmarks/reference.py": "it takes minutes; the page has the tables of the same script",
     ".venv/bin/ballscrew sweep examples/feed_drive.toml --to /shared/map.zarr --scheduler tcp://head:8786": (
         "it needs a scheduler and a disk that machines share; tests/engine/sweeps/test_cluster.py has its own"
     ),

@@ -85,8 +85,8 @@ def test_the_inputs_said_to_move_the_torque_most_are_those_of_the_command():
     assert (second, third) == ("ball_friction_coefficient", TEMPERATURE.name)
     assert max(shares["boundary_friction_coefficient"], shares["full_film_friction_coefficient"]) < 0.05
     said = "force between balls, far ahead; friction between balls; temperature of the oil."
-    agreement = (ROOT / "docs" / "agreement.md").read_text(encoding="utf-8")
-    assert said in " ".join(agreement.split())
+    page = (ROOT / "docs" / "sensitivity.md").read_text(encoding="utf-8")
+    assert said in " ".join(page.split())
 
 
 def test_the_python_example_is_ten_lines_and_readable(readme):

@@ -178,7 +178,7 @@ def test_the_rolling_force_has_no_low_load_branch():
     def printed(W):
         return rolling.hydrodynamic_rolling_force(E, R_x, k, E * PRESSURE_VISCOSITY, U, W)
 
-    # the figures that the README, docs/validity.md and the verdict quote
+    # the figures that the verdict quotes
     for load, share in ((5.0, 0.43), (20.0, 0.63), (100.0, 0.85)):
         W = rheology.load_parameter(load, E, R_x)
         assert printed(W) / blended(W) == pytest.approx(share, abs=0.005)

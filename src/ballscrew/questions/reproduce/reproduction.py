@@ -30,26 +30,9 @@ from ballscrew.questions.shared.text_tables import markdown_table
 
 Report = Callable[[str, int, int], None]
 
-#: The claims of the short table: those with a number of the paper's own.
-SHORT_TABLE = (
-    "agreement",
-    "offset",
-    "threshold",
-    "split_one",
-    "split_two",
-    "minimum",
-    "falling",
-    "rising",
-    "efficiency",
-    "load_torque",
-    "first_zone",
-    "second_zone",
-    "zero",
-)
 _MODELS = ("olaru2005", "corrected")
 _LITERAL = "olaru2005-literal"
 _LABELS = ("as printed", "corrected", "to the letter")
-_FAILURES_FIRST = (olaru2005.Verdict.FAILS, olaru2005.Verdict.OPEN, olaru2005.Verdict.HOLDS)
 _COUNTED = (olaru2005.Verdict.HOLDS, olaru2005.Verdict.FAILS, olaru2005.Verdict.OPEN)
 _WORDS = {olaru2005.Verdict.HOLDS: "yes", olaru2005.Verdict.FAILS: "no", olaru2005.Verdict.OPEN: "cannot be checked"}
 #: Symbols of the claims.
@@ -178,14 +161,10 @@ def _cell(value: Any) -> str:
 # -- words ----------------------------------------------------------------------------------------
 
 
-def claims_table(claims: Sequence[olaru2005.Claim] | None = None, keys: Sequence[str] | None = SHORT_TABLE) -> str:
-    """The claims as a short table in Markdown, those that fail first; ``keys=None`` takes all, in the paper's order."""
-    every = olaru2005.claims() if claims is None else claims
-    chosen = [claim for claim in every if keys is None or claim.key in keys]
-    if keys is not None:
-        chosen.sort(key=lambda claim: min(_FAILURES_FIRST.index(claim.findings[name].verdict) for name in _MODELS))
+def claims_table(claims: Sequence[olaru2005.Claim]) -> str:
+    """The claims as a table in Markdown, in the paper's order."""
     rows = [
-        (claim.claim, claim.paper, *(claim.findings[name].short for name in _MODELS), _holds(claim)) for claim in chosen
+        (claim.claim, claim.paper, *(claim.findings[name].short for name in _MODELS), _holds(claim)) for claim in claims
     ]
     return markdown_table(("claim", "paper", "as printed", "corrected", "holds?"), rows)
 
@@ -211,7 +190,7 @@ def claims_document(
         f"{sentence(counts(claims))}.\n",
         _meaning(claims),
         "## Claims\n",
-        claims_table(claims, None),
+        claims_table(claims),
         "Numbers in brackets are equations of the paper.\n",
         markdown_table(("symbol", "meaning"), _SYMBOLS),
         "## Claims in detail\n",
