@@ -104,7 +104,7 @@ def test_every_row_has_a_term_a_meaning_a_name_and_a_page():
     for row in ROWS:
         assert len(row) == 4, row
         assert all(row), row
-        (page,) = re.findall(r"\]\(([^)#]+\.md)\)", row[3])
+        (page,) = re.findall(r"\]\(([^)#]+\.md)(?:#[^)]*)?\)", row[3])
         assert (DOCS / page).is_file(), page
 
 
