@@ -237,7 +237,8 @@ class Run:
             values["preload"] = nut.preload
             values |= {name: getattr(nut.loads, name) for name in ("remaining_preload", "lift_off_load")}
         of_maker, words = _of_own_rule(self.case, nut)
-        return values | of_maker, words
+        beside = "; friction of bearings and guides is not counted here, duty counts it"
+        return values | of_maker, {**words, "of_axis": beside * (self.case.axis is not None)}
 
     def _said(self, rows: Sequence[Judgement]) -> list[Record]:
         return said(rows, *self.judged)
