@@ -57,7 +57,8 @@ def sweep(
     ``xarray.DataArray`` values that share a dimension vary together along it, so random points are
     ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order given. Only the ``outputs``
     asked for are kept (see :func:`~ballscrew.engine.evaluation.outputs.known_outputs`; a default handful otherwise),
-    and ``valid``. A ``nut`` takes the place of that of the screw; its fields are varied as ``**{"nut.preload": [...]}``.
+    and ``valid``. A ``nut`` takes the place of that of the screw; its fields are varied as
+    ``**{"nut.preload": [...]}``.
 
     Work goes block by block on a few threads, of ``block_size`` points at most, and
     ``done(finished, total)`` reports the points.

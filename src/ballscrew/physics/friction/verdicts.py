@@ -347,7 +347,8 @@ VERDICTS: tuple[Judgement, ...] = (
         unit=_HOLDING.unit,
         sentences=(
             Sentence(
-                "without current the motor holds {held} on the shaft at rest, where {needed} hold the load: {stays}{counts}",
+                "without current the motor holds {held} on the shaft at rest, where {needed} hold the load: "
+                "{stays}{counts}",
                 places={
                     "held": Shown("value", _HOLDING),
                     "needed": Shown("limit", _HOLDING),
