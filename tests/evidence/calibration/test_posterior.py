@@ -29,7 +29,7 @@ def found():
 
 @pytest.fixture(scope="module")
 def samples(found):
-    return found.posterior(steps=800, seed=1)
+    return found.posterior(steps=500, seed=1)
 
 
 def test_where_the_model_is_nearly_a_straight_line_the_errors_are_those_of_the_curvature(found, samples):

@@ -1,6 +1,5 @@
 """The parts of a fit by hand: what is fitted, between which bounds, and what priors know before."""
 
-import dataclasses
 import math
 import types
 
@@ -89,12 +88,6 @@ def test_what_is_fitted_beside_the_numbers_that_are_free():
     assert [one.name for one in problem(log(rows=18)).parameters] == [FRICTION, "torque_offset"]
     # all torques zero: they are measured by 1 N m
     assert problem(log(), friction=np.zeros(ROWS)).scale[1] == 1.0
-
-
-def test_without_a_time_nothing_drifts():
-    """Rows may be sorted by speed: a line over them is friction, and no drift of a sensor."""
-    data = dataclasses.replace(log(), time=None)
-    assert [one.name for one in problem(data).parameters] == [FRICTION, "torque_offset"]
 
 
 def test_one_direction_has_a_drift_where_nothing_else_goes_with_it():

@@ -406,11 +406,9 @@ def escape_insensitive_start(
 
 
 def drift_of(log: TorqueLog) -> Vector | None:
-    """A line over the time of a log; None without a time: its rows may be sorted by load or speed."""
-    if log.time is None or len(log) < MINIMUM_ROWS_FOR_DRIFT:
-        return None
-    time = np.asarray(log.time, dtype=float)
-    return None if np.ptp(time) == 0 else (time - time.min()) / np.ptp(time) - 0.5
+    """A line over the time of a log, or else over its rows, which come one after the other anyway."""
+    time = np.asarray(log.line if log.time is None else log.time, dtype=float)
+    return None if len(log) < MINIMUM_ROWS_FOR_DRIFT or np.ptp(time) == 0 else (time - time.min()) / np.ptp(time) - 0.5
 
 
 def _is_independent(drift: Vector, slopes: Vector) -> bool:

@@ -288,10 +288,10 @@ class JointErrors(NamedTuple):
 
     @property
     def of_export(self) -> tuple[WorstError, ...]:
-        """The errors as an export has them, with names of their own, those at the load of the fit first."""
+        """The errors as an export has them, with names of their own."""
         of_fit = dataclasses.replace(self.at_load, output="screw_torque_at_load_and_speeds_of_fit")
         rest = () if self.at_rest is None else (dataclasses.replace(self.at_rest, output="screw_torque_at_rest"),)
-        return of_fit, *rest, self.over_loads
+        return self.over_loads, of_fit, *rest
 
     @property
     def text(self) -> str:
