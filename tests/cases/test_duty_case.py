@@ -110,6 +110,8 @@ def test_a_motor_has_its_curve():
         curve=((0.0, 20.0), (motor.largest_speed, 10.0)),
     )
     assert motor.largest_speed == pytest.approx(fastest, rel=1e-14)
+    with pytest.raises(InputError, match=r"ends below the largest speed \(2500 rpm\)"):
+        built(SCREW + MOVING, *settings, curve.replace('"3000', '"2500'))
 
 
 def test_without_an_operating_point_it_has_that_of_steady_travel():

@@ -261,7 +261,7 @@ def test_attributes(model, sweep):
 def test_outputs_may_be_chosen(model, sweep):
     chosen = ("friction_power", "contribution_curvature", "screw.film_parameter", "nut_maximum_pressure")
     ds = sweep(model, outputs=chosen, axial_load=[1.0, 2.0], screw_speed=60.0)
-    assert list(ds.data_vars) == [name.replace(".", "_") for name in chosen]
+    assert list(ds.data_vars) == [*(name.replace(".", "_") for name in chosen), "valid"]
 
 
 def test_outputs_cover_results_and_both_sides():
@@ -403,7 +403,7 @@ def test_arrays_belong_into_the_sweep(seed_screw, seed_oil):
 
 def test_a_single_output_may_be_a_plain_name(sweep):
     ds = sweep(bs.FrictionModel.corrected(), outputs="efficiency", axial_load=[1e3], screw_speed=9)
-    assert list(ds.data_vars) == ["efficiency"]
+    assert list(ds.data_vars) == ["efficiency", "valid"]
 
 
 def test_a_material_that_varies_is_a_coordinate_and_no_attribute(model, seed_screw, seed_oil, sweep):

@@ -52,6 +52,12 @@ def test_where_the_laws_pull_the_band_one_line_says_which_number_to_use(torque, 
     assert all(f"{value:.3g} N m" in record.text for value, record in zip(used, found, strict=True))
 
 
+def test_a_line_for_a_brake_names_the_end_for_a_motor_too():
+    torque = output_band(1.0, (0.9, 1.6), (0.8, 1.5), (0.9, 1.1))
+    (record,) = answer.beside_laws(torque, quantities_of(FrictionResult)["screw_torque"])
+    assert record.text.endswith("for a brake take 0.8 N m, for a motor 1.6 N m")
+
+
 def test_only_given(drive, ballscrew):
     given = ("--set", "screw.screw_conformity=0.54 ± 0.01", "--only-given", "--samples", "256", "--json")
     found = document_of(ballscrew("run", drive, "--band", *given))["band"]

@@ -61,6 +61,19 @@ def test_what_the_motor_holds_and_a_slender_shaft_are_on_every_face(tmp_path):
     assert needed > 0
     assert "verdict.slenderness" not in records  # 2 m are 50 times 40 mm
     assert (records["verdict.motor_holds"]["holds"], records["verdict.motor_holds"]["limit"]) == (False, needed)
+    assert "duty counts it" not in records["verdict.motor_holds"]["text"]
     records, _ = told(1.01 * needed, 2001)
     assert records["verdict.motor_holds"]["holds"]
     assert records["verdict.slenderness"]["value"] == pytest.approx(2001 / 40)
+
+
+@pytest.mark.parametrize(("mass", "is_said"), [("105 kg", False), ("40 kg", True)])
+def test_a_load_far_from_the_weight_of_the_axis_is_told(tmp_path, mass, is_said):
+    """1 kN is the weight of 102 kg. Of an axis the motor also has the help of bearings and guides."""
+    path = tmp_path / "case.toml"
+    axis = f'[axis]\nmass = "{mass}"\ninclination = "90 deg"\n'
+    path.write_text(drive_case(more=axis + MOUNTED.format(held=0, length=900)), encoding="utf-8")
+    checked = one(str(path), None, Options({}, (), None), keep_going=False)[0]
+    words = " ".join(terminal.text(sheet(checked)).split())
+    assert ("operation.axial_load 1000 N, where the weight of the axis is 392.3 N along the screw" in words) == is_said
+    assert "bearings and guides is not counted here, duty counts it" in words

@@ -107,6 +107,9 @@ def test_a_nut_with_play_loses_it_where_the_load_changes_its_flank(report):
     ]
     (record,) = (record for record in verdicts(result) if record.id == "verdict.flank_changes")
     assert "2 times in a cycle, where the position loses the play of 20 µm: at 290 mm (“forth: slows" in record.text
+    unknown = report({"mass": "100 kg"}, screw=loose.replace('axial_play = "20 um"', ""))
+    (record,) = (record for record in verdicts(unknown) if record.id == "verdict.flank_changes")
+    assert record.text.endswith("play unknown: give nut.axial_play")
     preloaded = report({"mass": "100 kg"})
     assert [change.lost_motion for change in preloaded.flank_changes] == [0.0, 0.0]
     assert "verdict.flank_changes" not in {record.id for record in verdicts(preloaded)}

@@ -185,6 +185,10 @@ def test_rows_of_ones_own_are_those_shipped(ballscrew, own, name):
         assert_same(row, shipped[row["name"]])
 
 
+def test_columns_of_shipped_rows_are_no_matter_of_users(ballscrew):
+    assert "columns not used" not in ballscrew("validate", "thk-ratings", "--json").stderr
+
+
 def test_the_summary_is_one_object(ballscrew):
     found = document_of(ballscrew("validate", "rexroth-single-nut", "thk-jis", "--summary", "--json"))["summary"]
     assert {(row["maker"], row["nut"]) for row in found} == {("Rexroth", "single"), ("THK", "double")}

@@ -12,8 +12,9 @@ import numpy as np
 
 from ballscrew.axis.motion.states import MotionStates, Numbers
 from ballscrew.axis.supports.guide import GUIDES, SEALS, GuidedTable
+from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue, compact
-from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
+from ballscrew.basis.errors import Fault, faults_of, raise_if_any
 from ballscrew.basis.quantities import (
     Acceleration,
     Angle,
@@ -28,6 +29,7 @@ from ballscrew.basis.quantities import (
     Temperature,
     Torque,
     Unit,
+    fields_of,
 )
 from ballscrew.physics.components.materials import GRAVITY
 from ballscrew.physics.components.operating_state import ElementFriction
@@ -364,7 +366,8 @@ class Motor(ByValue):
             misfits.append(Fault("motor.curve", "lies above the peak torque", given, remedy))
         if last < self.largest_speed * (1 - 1e-9):
             remedy = "add a point at the largest speed"
-            misfits.append(Fault("motor.curve", "ends below the largest speed", shown(last, "rad/s"), remedy))
+            given = units.shown(last, fields_of(Motor)["largest_speed"])
+            misfits.append(Fault("motor.curve", "ends below the largest speed", given, remedy))
         return misfits
 
     def peak_at(self, speed: Numbers) -> Numbers:

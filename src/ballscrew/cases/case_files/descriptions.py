@@ -116,7 +116,8 @@ def design(case: Case, plain_text: bool = False) -> str:
 def assumed(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
     """Assumptions, omissions and the origin of a fit, one text each."""
     omissions = left_out(case)
-    return [*assumptions(case, ball_to_ball_force), *([omissions] if omissions else []), *of_fit(case)]
+    beside = [*([omissions] if omissions else []), *of_weight(case), *of_fit(case)]
+    return [*assumptions(case, ball_to_ball_force), *beside]
 
 
 def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str]:
@@ -243,6 +244,17 @@ def left_out(case: Case) -> str:
     losses = [f"left out: {', '.join(missing)}"] if missing else []
     comparison = [] if case.origins.fit.get("log") else ["not compared with measurements"]
     return "; ".join([*losses, *comparison])
+
+
+def of_weight(case: Case) -> list[str]:
+    """A load of the operating point that is far from the weight of an axis that is not level."""
+    if case.axis is None or case.origins.travels or not case.axis.inclination:
+        return []
+    load, weight = abs(float(case.operation.axial_load)), abs(float(case.axis.gravity_force))
+    if not weight or abs(load - weight) <= max(load, weight) / 2:
+        return []
+    given, own = (units.shown(force, _OPERATION["axial_load"]) for force in (load, weight))
+    return [f"operation.axial_load {given}, where the weight of the axis is {own} along the screw"]
 
 
 def of_fit(case: Case) -> list[str]:

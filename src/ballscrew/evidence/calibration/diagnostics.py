@@ -365,7 +365,7 @@ def shown_with_interval(estimate: Estimate) -> str:
     number, ends = units.shown(value, estimate.quantity), estimate.interval()
     if ends is None:
         return number
-    low, high = (units.shown(end, estimate.quantity) for end in ends)
+    low, high = units.ends(*ends, estimate.quantity)
     return f"{number} (95 %: {low} to {high})"
 
 

@@ -12,7 +12,8 @@ operating point, ``axial_load`` and ``screw_speed``. Besides them:
 - ``preload_drag_of_balls``, the torque of a preloaded nut without load and seals, and ``rule_of_maker``, the same by
   the rule of the maker of the nut.
 
-The words are ``rule`` and ``range`` of the maker's rule, and ``rating_source``, where the rating is from.
+The words are ``rule`` and ``range`` of the maker's rule, ``rating_source``, where the rating is from, and ``of_axis``,
+the friction of an axis that ``motor_torque`` is compared without.
 """
 
 from __future__ import annotations
@@ -346,11 +347,13 @@ VERDICTS: tuple[Judgement, ...] = (
         unit=_HOLDING.unit,
         sentences=(
             Sentence(
-                "without current the motor holds {held} on the shaft at rest, where {needed} hold the load: {stays}",
+                "without current the motor holds {held} on the shaft at rest, where {needed} hold the load: "
+                "{stays}{counts}",
                 places={
                     "held": Shown("value", _HOLDING),
                     "needed": Shown("limit", _HOLDING),
                     "stays": (Sentence("it stays until something starts it", "holds"), Sentence("it does not stay")),
+                    "counts": Words("of_axis"),
                 },
             ),
         ),

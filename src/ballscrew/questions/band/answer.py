@@ -261,7 +261,8 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
         units.ends(*ends, quantity) for ends in (both, inputs, laws)
     )
     value, median = units.shown(torque.value, quantity), units.shown(torque.median, quantity)
-    advice = f"expect the median {median} and for a motor take {units.shown(greatest, quantity, toward=1)}"
+    most = units.shown(greatest, quantity, toward=1)
+    advice = f"expect the median {median} and for a motor take {most}"
 
     def of_laws(name: str, text: str, number: float) -> Record:
         return Record(f"band.{name}", _TORQUE, text, value=number, unit=quantity.unit)
@@ -276,7 +277,7 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     if both.low > inputs.low and low != inputs_low:
         text = (
             f"inputs and laws together begin at {low}, above the {inputs_low} of the inputs alone: most other laws "
-            f"give more torque than the model's; for a brake take {inputs_low}"
+            f"give more torque than the model's; for a brake take {inputs_low}, for a motor {most}"
         )
         records.append(of_laws("laws_raise_it", text, inputs.low))
     if torque.value > laws.high and value != laws_high:

@@ -296,7 +296,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
     of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]
     of_life = ["life: by the loads of both flanks in the model; a duty has those of ISO 3408-5"] * (run.nut.preload > 0)
     assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, *of_life, *of_rigidity]
-    assumptions.append(descriptions.left_out(run.case))
+    assumptions += [descriptions.left_out(run.case), *descriptions.of_weight(case)]
     return Checked(name, case, run, run.nut, computed, result, list(dict.fromkeys(filter(None, assumptions))))
 
 

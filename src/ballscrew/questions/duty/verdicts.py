@@ -100,8 +100,10 @@ def _flank_changes(report: DutyReport) -> list[Record]:
     places = [f"{units.shown(change.position, _LENGTH)} (“{change.phase}”)" for change in changes[:_PLACES]]
     more = "" if len(changes) <= _PLACES else f" and {len(changes) - _PLACES} more"
     play = changes[0].lost_motion
-    loses = f"the position loses the play of {units.shown(play, TRAVEL)}" if play else "nut.axial_play gives no play"
-    message = f"the load changes its flank {len(changes)} times in a cycle, where {loses}: at {', '.join(places)}{more}"
+    loses = f", where the position loses the play of {units.shown(play, TRAVEL)}" if play else ""
+    unknown = "" if play else "; play unknown: give nut.axial_play"
+    at = f"at {', '.join(places)}{more}"
+    message = f"the load changes its flank {len(changes)} times in a cycle{loses}: {at}{unknown}"
     return [Record("verdict.flank_changes", "lost_motion", message, value=play, unit=TRAVEL.unit)]
 
 

@@ -241,7 +241,8 @@ class Run:
             # a search, of which nothing is said unless the preload is lost
             values["lift_off_load"] = nut.loads.lift_off_load if nut.preload_is_lost else math.nan
         of_maker, words = _of_own_rule(self.case, nut)
-        return values | of_maker, words
+        beside = "; friction of bearings and guides is not counted here, duty counts it"
+        return values | of_maker, {**words, "of_axis": beside * (self.case.axis is not None)}
 
     def _said(self, rows: Sequence[Judgement]) -> list[Record]:
         return said(rows, *self.judged)

@@ -105,6 +105,7 @@ _OF_ROW = (
 def sheet(run: Run, bands: Mapping[str, OutputBand] | None = None, heating: Sequence[Record] = ()) -> Sheet:
     """All that people see of a run: results with their bands where they were computed, and what self-heating did."""
     case = run.case
+    of_case = [*descriptions.of_weight(case), *descriptions.of_fit(case)]
     return Sheet(
         descriptions.title(case),
         [
@@ -119,7 +120,7 @@ def sheet(run: Run, bands: Mapping[str, OutputBand] | None = None, heating: Sequ
             results_table(run, SHOWN, bands or {}),
             verdict_lines(run.verdicts),
             warning_lines(_warnings(run)),
-            Lines([Line(text) for text in (descriptions.left_out(case), *descriptions.of_fit(case)) if text]),
+            Lines([Line(text) for text in (descriptions.left_out(case), *of_case) if text]),
             *parts(run),
             _quadrants(run),
             *([] if run.nut is None else [_loads(run.nut), stiffness(run.nut)]),
