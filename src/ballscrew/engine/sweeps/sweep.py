@@ -57,7 +57,7 @@ def sweep(
     ``xarray.DataArray`` values that share a dimension vary together along it, so random points are
     ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order given. Only the ``outputs``
     asked for are kept (see :func:`~ballscrew.engine.evaluation.outputs.known_outputs`; a default handful otherwise),
-    and ``valid``. A ``nut`` takes the place of that of the screw; its fields are varied as
+    and ``valid`` where no file is written. A ``nut`` takes the place of that of the screw; its fields are varied as
     ``**{"nut.preload": [...]}``.
 
     Work goes block by block on a few threads, of ``block_size`` points at most, and
@@ -91,7 +91,7 @@ def sweep(
         remedy = 'add to="map.zarr", in a folder that all workers share'
         raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
     screw = screw if nut is None else dataclasses.replace(screw, nut=nut)
-    if outputs is not None and len(outputs):  # a map without it looks valid everywhere
+    if to is None and outputs is not None and len(outputs):  # a map without it looks valid everywhere
         outputs = (*((outputs,) if isinstance(outputs, str) else outputs), "valid")
     plan = Plan.of(Configuration(model, screw, lubricant), outputs, varied, later=to is None)
     if to is not None:

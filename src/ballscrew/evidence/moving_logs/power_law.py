@@ -223,7 +223,7 @@ class SteadySpeed:
 
     @property
     def is_one_way(self) -> bool:
-        """Whether one direction alone was logged at this speed."""
+        """True where one direction alone was logged at this speed."""
         return math.isnan(self.forward + self.backward)
 
 
