@@ -383,8 +383,8 @@ def _balls(row: CatalogueRow, ball: Estimate | None) -> Estimate:
         source += "so many carry load in nuts with such ratings"
     else:
         source += (
-            "0.24 turns without load fit the ratings of nuts with long circuits; those of circuits of 2.5 turns fit "
-            "23 % fewer balls"
+            "0.24 turns carry no load, as in nuts with long circuits; nuts with circuits of 2.5 turns are rated as if "
+            "they had 23 % fewer balls"
         )
     return Estimate("loaded_balls", row.loaded_balls, min(math.floor(low), row.loaded_balls), math.ceil(high), source)
 
@@ -405,8 +405,8 @@ _DEPTHS = (1.0, 1.26)
 #: True ball over that of a maker: 3.969 and 4 mm, 9.525 and 9.5 mm count as one.
 MAKE_BAND = (0.988, 1.012)
 BY_MAKE = (
-    "the ball with which both load ratings are as usual for this maker: of 545 rows of three catalogues 441 are told "
-    "by rows of other grooves, 440 of them right; as "
+    "the ball that gives both load ratings as this maker states them (of 545 rows of three catalogues, each tried by "
+    "the others, 441 are told, 440 of them right): "
 )
 
 
