@@ -44,6 +44,31 @@ def test_noise_is_in_the_interval_of_the_exponent():
     assert high - low < 0.1
 
 
+def test_speeds_that_creep_are_of_several_speeds():
+    """1 mm/s, and from 50 to 156 mm/s, each a twenty-fifth faster than the one before."""
+    log = log_of([0.05 * 1.04**n for n in range(30)] + [0.001], lambda v: 40 * v**0.4)
+    speeds = [one.speed for one in steady_friction(log).speeds]
+    assert len(speeds) == 9
+    assert steady_friction(log).exponent == pytest.approx(0.4, abs=0.02)
+
+
+def test_an_offset_that_differs_between_speeds_is_in_the_error():
+    """0 N at 10 mm/s and 20 N at 30: at 100, logged forward alone, the friction of 41 N is uncertain by as much."""
+    log = log_of([0.001, 0.01, 0.03, 0.1], lambda v: 41 + 0 * v)
+    force = log.force + 20.0 * (np.abs(np.repeat(np.repeat([0.001, 0.01, 0.03, 0.1], 6), 35)) == 0.03)
+    rows = np.r_[:630, 630:665]
+    *_, alone = steady_friction(MovingLog(time=log.time[rows], force=force[rows], speed=log.speed[rows])).speeds
+    assert alone.is_one_way
+    assert abs(alone.friction - 41.0) < 2 * alone.std < 60.0
+
+
+def test_strokes_that_are_not_repeated_are_refused():
+    log = log_of([0.001, 0.03], lambda v: 41 + 0 * v)
+    rows = np.r_[:210, 210:280]
+    with pytest.raises(InputError, match="has one stroke alone at each speed and direction · repeat the strokes"):
+        steady_friction(MovingLog(time=log.time[rows], force=log.force[rows], speed=log.speed[rows]))
+
+
 def test_what_cannot_be_told_is_refused():
     with pytest.raises(InputError, match="no rows at constant speed in both directions"):
         steady_friction(MovingLog(time=np.arange(300.0), force=np.ones(300), speed=np.full(300, 0.1)))
@@ -66,7 +91,7 @@ def test_one_direction_counts_without_the_offset_of_the_other_speeds():
     assert alone.backward == pytest.approx(-34.0, abs=0.1)
     assert alone.offset == slow.offset == pytest.approx(7.0, abs=0.1)
     assert alone.friction == pytest.approx(41.0, abs=0.1)
-    # the scatter of stretches at the other speed, as there is one here, and the error of the offset
+    # two errors of the same scatter: that of a single stretch, and that of the offset
     assert alone.std > slow.std > 0
 
 

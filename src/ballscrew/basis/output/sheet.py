@@ -265,12 +265,12 @@ Cells: TypeAlias = Mapping[str, tuple[Any, Quantity | None]]
 class _OfRows(Sequence[Column]):
     """Columns of rows, which are made when they are first read: few faces show them."""
 
-    def __init__(self, rows: Iterable[Cells]) -> None:
+    def __init__(self, rows: Callable[[], Iterable[Cells]]) -> None:
         self._rows = rows
 
     @functools.cached_property
     def _columns(self) -> Sequence[Column]:
-        rows = list(self._rows)
+        rows = list(self._rows())
         quantities = {heading: quantity for cells in reversed(rows) for heading, (_, quantity) in cells.items()}
         headings = dict.fromkeys(heading for cells in rows for heading in cells)
         return [
@@ -285,7 +285,7 @@ class _OfRows(Sequence[Column]):
         return len(self._columns)
 
 
-def columns_of(name: str, rows: Iterable[Cells]) -> Columns:
+def columns_of(name: str, rows: Callable[[], Iterable[Cells]]) -> Columns:
     """A table of rows that need not have the same columns; those of the first come first."""
     return Columns(name, _OfRows(rows))
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -91,8 +91,10 @@ def sweep(
         remedy = 'add to="map.zarr", in a folder that all workers share'
         raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
     screw = screw if nut is None else dataclasses.replace(screw, nut=nut)
-    if to is None and outputs is not None and len(outputs):  # a map without it looks valid everywhere
-        outputs = (*((outputs,) if isinstance(outputs, str) else outputs), "valid")
+    if isinstance(outputs, Iterable):
+        outputs = (outputs,) if isinstance(outputs, str) else tuple(outputs)
+        if to is None and outputs:  # a map without it looks valid everywhere
+            outputs = (*outputs, "valid")
     plan = Plan.of(Configuration(model, screw, lubricant), outputs, varied, later=to is None)
     if to is not None:
         if engine == "model":

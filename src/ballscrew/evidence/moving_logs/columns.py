@@ -54,7 +54,8 @@ _HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwe
 FORCES, PATHS = ("force", "torque", "current", "power", "voltage"), ("speed", "position")
 #: Units of controllers that write none, by column.
 _OF_CONTROLLERS: Mapping[str, str] = {"time": "s", "position": "mm", "speed": "mm/s", "current": "A", "power": "kW"}
-#: A heading of one axis of several: X1_ActualPosition.
+#: Names of axes, and a heading of one of several: X1_ActualPosition.
+_AXIS = re.compile(r"[A-Za-z]|[A-Za-z]+\d+")
 _OF_AXIS = re.compile(r"([A-Za-z]+\d*)[_ .](.+)")
 
 
@@ -100,7 +101,7 @@ def moving_layout(path: Path, records: Sequence[Record], flags: Mapping[str, str
 
 def _with_option(fault: Fault, axes: Sequence[str]) -> Fault:
     """The fault with the option that makes up for it: of a log of several axes, or without a time."""
-    if axes:
+    if axes and fault.id in ("", NO_COLUMN):
         return dataclasses.replace(fault, remedy=f"say which axis: --axis {' or --axis '.join(axes)}")
     if fault.id != NO_COLUMN or fault.column != "time":
         return fault
@@ -111,7 +112,7 @@ def _axes(records: Sequence[Record]) -> list[str]:
     """The axes whose speeds or positions a log of several has, by what their headings begin with."""
     matches = (_OF_AXIS.fullmatch(str(cell)) for record in records[:WITHIN] for cell in record.cells)
     paths = [column for column in COLUMNS if column.name in PATHS]
-    words = ((match[1], _in_words(match[2])) for match in matches if match)
+    words = ((match[1], _in_words(match[2])) for match in matches if match and _AXIS.fullmatch(match[1]))
     return [*dict.fromkeys(axis for axis, name in words if any(column.is_named(name) for column in paths))]
 
 

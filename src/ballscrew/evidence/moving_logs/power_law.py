@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import stdtrit
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.evidence.moving_logs.equation import Equation, LeastSquares, bootstrap_sums, relative_error
@@ -191,12 +192,12 @@ def _choices(equation: Equation, sides: Floats) -> dict[str, float]:
 LEAST_ROWS, STEADY = 4, 0.05
 #: The speed of a stretch is so many times the step in which speeds are written, or more.
 RESOLVED = 10.0
-#: Stretches are of one speed while the next faster differs by no more than this share.
-SAME_SPEED = 0.05
+#: Stretches whose speeds differ by no more than this share are of one speed, unless there is such a gap between them.
+SAME_SPEED, GAP = 0.15, 0.05
 #: Speeds tell an exponent if the fastest is so many times the slowest.
 WIDE = 3.0
-#: Half of a 95 % interval over the standard error.
-_QUANTILE = 1.96
+#: Scatter of forces over the largest, at least.
+_EXACT = 1e-9
 #: Mean speed, mean force and rows of a stretch at nearly constant speed.
 Stretch = tuple[float, float, int]
 
@@ -259,15 +260,23 @@ def steady_friction(*logs: MovingLog) -> SteadyFriction:
         resolution = max(resolution, step)
     groups = _of_one_speed(stretches)
     ways = [forces for near in groups for forces in _by_direction(near) if len(forces) > 1]
-    scatter = math.sqrt(sum(np.var(forces) * len(forces) for forces in ways) / max(sum(len(f) - 1 for f in ways), 1))
+    if not ways and stretches:
+        remedy = "repeat the strokes at one speed at least: their scatter is the error"
+        raise InputError(Fault(name, "has one stroke alone at each speed and direction", "", remedy))
+    repeats = sum(len(forces) - 1 for forces in ways)
+    scatter = math.sqrt(sum(np.var(forces) * len(forces) for forces in ways) / max(repeats, 1))
+    # forces that repeat to the last digit were not measured: their error is not zero, but small
+    scatter = max(scatter, _EXACT * max((abs(force) for _, force, _ in stretches), default=0.0))
     both_ways = [one for near in groups if (one := _at_one_speed(near, scatter)) is not None]
-    if not both_ways or not ways:
+    if not both_ways:
         remedy = "record strokes at constant speed in both directions"
         raise InputError(Fault(name, "has no rows at constant speed in both directions", "", remedy))
-    stds = [one.std for one in both_ways]
-    offset = (float(np.mean([one.offset for one in both_ways])), math.hypot(*stds) / len(stds))
+    offsets = [one.offset for one in both_ways]
+    # an offset that differs between speeds may differ at another speed by as much
+    differs = float(np.std(offsets, ddof=1)) if len(offsets) > 1 else 0.0
+    offset = (float(np.mean(offsets)), math.hypot(differs, *(one.std / len(both_ways) for one in both_ways)))
     speeds = [one for near in groups if (one := _at_one_speed(near, scatter, offset)) is not None]
-    return SteadyFriction(speeds, *_exponent(speeds), resolution)
+    return SteadyFriction(speeds, *_exponent(speeds, repeats), resolution)
 
 
 def _stretches(speed: Floats, force: Floats, slowest: float) -> list[Stretch]:
@@ -286,11 +295,12 @@ def _stretches(speed: Floats, force: Floats, slowest: float) -> list[Stretch]:
 
 
 def _of_one_speed(stretches: Sequence[Stretch]) -> list[list[Stretch]]:
-    """The stretches by speed: a new one begins where the next faster is faster by more than :data:`SAME_SPEED`."""
+    """The stretches by speed, by :data:`SAME_SPEED` and :data:`GAP`."""
     groups: list[list[Stretch]] = []
     for stretch in sorted(stretches, key=lambda stretch: abs(stretch[0])):
-        if groups and abs(stretch[0]) <= abs(groups[-1][-1][0]) * (1 + SAME_SPEED):
-            groups[-1].append(stretch)
+        speed, near = abs(stretch[0]), groups[-1] if groups else []
+        if near and speed <= min(abs(near[0][0]) * (1 + SAME_SPEED), abs(near[-1][0]) * (1 + GAP)):
+            near.append(stretch)
         else:
             groups.append([stretch])
     return groups
@@ -304,17 +314,13 @@ def _by_direction(near: Sequence[Stretch]) -> tuple[list[float], list[float]]:
 def _at_one_speed(
     near: Sequence[Stretch], scatter: float, known_offset: tuple[float, float] | None = None
 ) -> SteadySpeed | None:
-    """The drive at the speed of some stretches; a single one has the ``scatter`` of those at all speeds.
+    """The drive at the speed of some stretches, with the ``scatter`` of those at all speeds.
 
     None where one direction is missing and no offset is known, with its standard error.
     """
     ways = _by_direction(near)
     forward, backward = (float(np.mean(forces)) if forces else math.nan for forces in ways)
-    errors = [
-        (float(np.std(forces, ddof=1)) if len(forces) > 1 else scatter) / math.sqrt(len(forces))
-        for forces in ways
-        if forces
-    ]
+    errors = [scatter / math.sqrt(len(forces)) for forces in ways if forces]
     if len(errors) == 2:
         friction, offset, std = (forward - backward) / 2, (forward + backward) / 2, math.hypot(*errors) / 2
     elif known_offset is not None:
@@ -335,9 +341,12 @@ def _at_one_speed(
     )
 
 
-def _exponent(speeds: Sequence[SteadySpeed]) -> tuple[float, tuple[float, float]]:
-    """The exponent n of friction ∝ speedⁿ by weighted least squares of the logarithms, with its 95 % interval."""
-    known = [one for one in speeds if one.friction > 0 and one.std > 0]
+def _exponent(speeds: Sequence[SteadySpeed], repeats: int) -> tuple[float, tuple[float, float]]:
+    """The exponent n of friction ∝ speedⁿ by weighted least squares of the logarithms, with its 95 % interval.
+
+    The errors have as many degrees of freedom as there are ``repeats``.
+    """
+    known = [one for one in speeds if one.friction > 0]
     if not known or max(one.speed for one in known) < WIDE * min(one.speed for one in known):
         return np.nan, (np.nan, np.nan)
     x, y = (np.log([getattr(one, name) for one in known]) for name in ("speed", "friction"))
@@ -347,5 +356,5 @@ def _exponent(speeds: Sequence[SteadySpeed]) -> tuple[float, tuple[float, float]
     slope = float(np.sum(weights * x * y)) / spread
     # the scatter about the line where it is more than that of the stretches
     scatter = max(1.0, float(np.sum(weights * (y - slope * x) ** 2)) / max(len(known) - 2, 1))
-    half = _QUANTILE * math.sqrt(scatter / spread)
+    half = float(stdtrit(repeats, 0.975)) * math.sqrt(scatter / spread)
     return slope, (slope - half, slope + half)

@@ -195,7 +195,7 @@ def completed(listed: Mapping[str, Any]) -> OwnNut:
         ball, odd = _ball(start) if as_of_make is None else (as_of_make.ball, [])
         fields |= {"ball_diameter": ball.value, "ball_diameter_source": ball.source}
         if as_of_make is not None:
-            fields |= as_of_make.fields
+            fields = {**as_of_make.fields, **fields}
         estimates.append(ball)
         warnings += odd
     row = CatalogueRow(**fields)
@@ -207,7 +207,8 @@ def completed(listed: Mapping[str, Any]) -> OwnNut:
     if listed.get("pitch_circle_diameter") is None:
         low, high = (share * row.nominal_diameter for share in PITCH_CIRCLES)
         source = BY_NOMINAL if row.pitch_circle_diameter is None else BY_BALL
-        estimates.append(Estimate("ball_circle", row.ball_circle, low, high, source))
+        value = row.ball_circle
+        estimates.append(Estimate("ball_circle", value, min(low, value), max(high, value), source))
     if "conformity" not in fields:
         conformity, odd = _conformity(row, is_listed={"ball_diameter", "root_diameter"} <= listed.keys())
         row = dataclasses.replace(row, conformity=conformity.value)
@@ -405,8 +406,8 @@ _DEPTHS = (1.0, 1.26)
 #: True ball over that of a maker: 3.969 and 4 mm, 9.525 and 9.5 mm count as one.
 MAKE_BAND = (0.988, 1.012)
 BY_MAKE = (
-    "the ball that gives both load ratings as this maker states them (of 545 rows of three catalogues, each tried by "
-    "the others, 441 are told, 440 of them right): "
+    "the ball that gives both load ratings as this maker states them (each row tried by others: of 44 that print their "
+    "ball 38 are told, all right; of 501 whose ball is itself an estimate 403, all but one alike): "
 )
 
 

@@ -83,7 +83,7 @@ def of_rows(screws: Sequence[Checked]) -> Sheet:
     return Sheet(
         f"{len(screws)} screws; all checks judged and held: {holding}",
         [
-            columns_of("screws", (cells(screw) for screw in screws)),
+            columns_of("screws", lambda: (cells(screw) for screw in screws)),
             Table("list", "name", headings, [row for screw in screws for row in _rows(screw)]),
             run_sheet.starved_line({screw.name: screw.run for screw in screws}),
         ],

@@ -134,7 +134,7 @@ def sheet_of_designs(designs: SideBySide) -> Sheet:
             _results(designs.designs, first),
             Lines(warnings),
             bars(parts, {}),
-            columns_of("screws", (cells(design) for design in designs.designs)),
+            columns_of("screws", lambda: (cells(design) for design in designs.designs)),
         ],
     )
 

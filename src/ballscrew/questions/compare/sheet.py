@@ -83,7 +83,7 @@ def sheet(case: Case, comparison: Comparison, heating: Sequence[Record] = ()) ->
             Lines([Line(text, "warning", reason) for reason, text in _outside(comparison).items()]),
             lines(_assumed(case, comparison), "small"),
             _bars(case, comparison, torque),
-            columns_of("laws", (_cells(row) for row in comparison.rows)),
+            columns_of("laws", lambda: (_cells(row) for row in comparison.rows)),
         ],
     )
 

@@ -420,7 +420,7 @@ def of_rows(reports: Mapping[str, FitReport]) -> Sheet:
     return Sheet(
         f"{len(reports)} screws, each fitted to its log",
         [
-            columns_of("screws", (_cells(name, report) for name, report in reports.items())),
+            columns_of("screws", lambda: (_cells(name, report) for name, report in reports.items())),
             Lines([Line(f"{name}: {text}", "verdict") for name, model in models.items() for text in model.verdicts]),
             Table(
                 "numbers",

@@ -152,7 +152,7 @@ def _limits(member: Member) -> str:
 
 def of_optimisation(members: Sequence[Member]) -> Columns:
     """The free variables and the objectives of each member, and what ``ballscrew check --to`` writes of a screw."""
-    return columns_of("screws", (_cells(member) for member in members))
+    return columns_of("screws", lambda: (_cells(member) for member in members))
 
 
 def _cells(member: Member) -> Cells:

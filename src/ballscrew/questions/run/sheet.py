@@ -319,7 +319,7 @@ def of_rows(runs: Mapping[str, Run]) -> Sheet:
     return Sheet(
         f"{len(runs)} screws",
         [
-            columns_of("screws", (cells(name, run) for name, run in runs.items())),
+            columns_of("screws", lambda: (cells(name, run) for name, run in runs.items())),
             Table("list", "name", headings, rows),
             starved_line(runs),
             Lines([Line("; ".join(texts), "warning", name) for name, texts in failed.items()]),

@@ -267,7 +267,7 @@ def of_selection(ranked: Sequence[Ranked]) -> Columns:
 
     Of a need with a motion with the torques of motor and brake. Cells of what was not computed are empty.
     """
-    return columns_of("screws", (_cells(each) for each in ranked))
+    return columns_of("screws", lambda: (_cells(each) for each in ranked))
 
 
 def _cells(ranked: Ranked) -> Cells:
