@@ -23,7 +23,7 @@ def schema_of(cls):
 
 def test_ratings_are_on_every_face(found):
     answer, words = document(found), terminal.text(sheet(found))
-    headings = files.rows_of(columns_of("screws", [cells(found)])).headings
+    headings = files.rows_of(columns_of("screws", lambda: [cells(found)])).headings
     for name, quantity in quantities_of(Rated).items():
         for of in ("listed", "computed"):
             value = answer["ratings"][of][name]
