@@ -275,7 +275,7 @@ def test_bars_begin_at_their_origin_or_where_they_say():
 
 def test_rows_need_not_have_the_same_columns():
     rows = [{"name": ("a", None), "stroke": (0.1, LENGTH)}, {"name": ("b", None), "mass": (None, LENGTH)}]
-    table = files.rows_of(columns_of("t", rows))
+    table = files.rows_of(columns_of("t", lambda: rows))
     assert table.headings == ["name", "stroke [mm]", "mass [mm]"]
     assert table.rows == [["a", 100.0, None], ["b", None, None]]
 
