@@ -109,16 +109,16 @@ def test_an_interrupt_says_how_far_it_came_and_how_to_go_on(case):
 def test_an_interrupted_selection_says_what_it_keeps(tmp_path):
     patch = """
         from ballscrew.questions.select import compute
-        judged, left = compute.by_loads, [3]
-        def by_loads(*given):
+        judged, left = compute.judged, [3]
+        def until_interrupted(*given, **options):
             left[0] -= 1
             if not left[0]:
                 raise KeyboardInterrupt
-            return judged(*given)
-        compute.by_loads = by_loads
+            return judged(*given, **options)
+        compute.judged = until_interrupted
         """
     need, table = ROOT / "examples" / "needs" / "feed_axis.toml", tmp_path / "kept.csv"
-    found = interrupted(patch, "select", need, "--set", "need.least_rigidity=1e6 N/um", "--to", table)
+    found = interrupted(patch, "select", need, "--set", "need.least_rigidity=1e6 N/um", "--complete", "--to", table)
     assert found.returncode == 130
     assert "none of the candidates judged so far holds" in found.stdout
     assert "no candidate holds" not in found.stdout
