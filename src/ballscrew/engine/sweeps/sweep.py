@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -91,7 +91,7 @@ def sweep(
         remedy = 'add to="map.zarr", in a folder that all workers share'
         raise InputError(Fault("sweep.cluster", "needs a store", "", remedy))
     screw = screw if nut is None else dataclasses.replace(screw, nut=nut)
-    if isinstance(outputs, Iterable):
+    if outputs is not None:
         outputs = (outputs,) if isinstance(outputs, str) else tuple(outputs)
         if to is None and outputs:  # a map without it looks valid everywhere
             outputs = (*outputs, "valid")

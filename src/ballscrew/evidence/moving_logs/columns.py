@@ -13,6 +13,7 @@ from ballscrew.basis.quantities import Info, Power, Quantity, Torque, Unit, quan
 from ballscrew.evidence.moving_logs.moving_log import quantities
 from ballscrew.files.tables.headings import (
     NO_COLUMN,
+    NO_HEADING,
     Column,
     bare,
     headings_in,
@@ -101,7 +102,7 @@ def moving_layout(path: Path, records: Sequence[Record], flags: Mapping[str, str
 
 def _with_option(fault: Fault, axes: Sequence[str]) -> Fault:
     """The fault with the option that makes up for it: of a log of several axes, or without a time."""
-    if axes and fault.id in ("", NO_COLUMN):
+    if axes and fault.id in (NO_HEADING, NO_COLUMN):
         return dataclasses.replace(fault, remedy=f"say which axis: --axis {' or --axis '.join(axes)}")
     if fault.id != NO_COLUMN or fault.column != "time":
         return fault

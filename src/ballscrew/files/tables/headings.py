@@ -28,7 +28,7 @@ from ballscrew.basis.quantities import Quantity
 from ballscrew.files.tables.sheets import HEADINGS_WITHIN, MOST_COLUMNS, Record
 
 #: Kinds of faults of headings.
-NEEDS_UNIT, SAME_MEANING, NO_COLUMN = "needs_unit", "same_meaning", "no_column"
+NEEDS_UNIT, SAME_MEANING, NO_COLUMN, NO_HEADING = "needs_unit", "same_meaning", "no_column", "no_heading"
 #: Letters of a heading at most: a longer cell is none, and is not looked at.
 LONGEST_HEADING = 200
 #: What stands for nothing in a cell.
@@ -241,6 +241,7 @@ def headings_in(
                 "has no heading that is known",
                 ", ".join(f'"{cell}"' for cell in row.cells if cell != ""),
                 f"begin with a row like: {needed}",
+                id=NO_HEADING,
             )
         )
     return best

@@ -32,7 +32,7 @@ from ballscrew.basis.quantities import (
 )
 from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE
-from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.screw import RATING_CONFORMITY, BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.laws.nut_losses import Seals, seal_table
 from ballscrew.physics.sizing.catalogue import (
@@ -465,8 +465,8 @@ def _make(name: str, conformity: Ratio, idle_turns: Ratio, idle_of_a_turn: Ratio
 
 
 @functools.cache
-def _makes_shipped() -> list[Make]:
-    return makes_of(catalogue().values())
+def _makes_shipped() -> Sequence[Make]:
+    return tuple(makes_of(catalogue().values()))
 
 
 def ball_of_make(row: CatalogueRow, makes: Iterable[Make]) -> MadeBall | None:
@@ -523,16 +523,19 @@ def _idle_of(row: CatalogueRow) -> tuple[Ratio, Ratio]:
     return 0.0, round(row.turns_without_load / row.turns, _DIGITS)
 
 
-def _ratios(row: CatalogueRow, balls: Any, circles: Any, conformity: Ratio, idle: tuple[Ratio, Ratio]) -> _Numbers:
-    """Logarithms of listed over computed rating, dynamic and static along the last axis, of balls and pitch circles."""
+def _ratios(row: CatalogueRow, balls: Any, circles: Any, conformity: Ratio, idle: tuple[Any, Ratio]) -> _Numbers:
+    """Logarithms of listed over computed rating, dynamic and static along the last axis, of balls and pitch circles.
+
+    That of a rating which is not listed is NaN.
+    """
     angle: Any = geometry.lead_angle(row.lead, circles)
-    in_a_turn: Any = np.floor(np.pi * circles / balls / np.cos(angle))
+    in_a_turn: Any = np.floor(np.pi * (circles / balls) / np.cos(angle))
     turns = row.turns * (1 - idle[1]) - idle[0]
     spacers = bool(row.spacer_balls)
     computed = ratings_of(
         RatedGeometry(circles, balls, row.contact_angle, angle, in_a_turn, turns, spacers, conformity)
     )
-    listed: Any = (row.dynamic_load_rating, row.static_load_rating)
+    listed = [math.nan if rating is None else rating for rating in (row.dynamic_load_rating, row.static_load_rating)]
     return np.log(np.stack([stated / rating for stated, rating in zip(listed, computed, strict=True)], axis=-1))
 
 
@@ -634,11 +637,9 @@ def _costs(rows: Sequence[CatalogueRow], *, by_root: bool) -> _Numbers:
     for each in rows:
         if not _is_estimated(each):
             may_be &= np.abs(BALLS / each.ball_diameter - 1) < _SAME
-        in_a_turn = np.floor(np.pi * each.ball_circle / BALLS / np.cos(each.lead_angle))[:, None]
-        shape = (each.ball_circle, BALLS[:, None], each.contact_angle, each.lead_angle, in_a_turn)
-        rated: Any = RatedGeometry(*shape, each.turns - _IDLE_TURNS, bool(each.spacer_balls))
         with np.errstate(invalid="ignore"):
-            over = np.log(each.dynamic_load_rating / ratings_of(rated).dynamic)[..., None] - _FACTORS
+            ratios = _ratios(each, BALLS[:, None], each.ball_circle, RATING_CONFORMITY, (_IDLE_TURNS, 0.0))
+        over = ratios[..., :1] - _FACTORS
         # beyond the most, the nearer ball is still the better one
         costs += np.minimum((over / _SCATTER) ** 2, _MOST) + 1e-3 * np.abs(over) / _SCATTER
         if by_root:

@@ -200,7 +200,7 @@ def ball_loads_of_each(screws: Sequence[BallScrew], axial_loads: Sequence[Force]
 
     Nuts with the same balls are solved together, and those with the same numbers once: these share what they have.
     """
-    found: list[BallLoads | InputError | None] = [None] * len(screws)
+    loads: list[BallLoads | InputError | None] = [None] * len(screws)
     kinds: dict[Any, tuple[NutCase, dict[bytes, list[int]]]] = {}
     for place, (screw, load) in enumerate(zip(screws, axial_loads, strict=True)):
         nut: Any = screw.nut
@@ -208,7 +208,7 @@ def ball_loads_of_each(screws: Sequence[BallScrew], axial_loads: Sequence[Force]
             bodies = nut.bodies.sized(screw)
             raise_if_any(_faults(screw, nut.halves, None))
         except InputError as error:
-            found[place] = error
+            loads[place] = error
             continue
         case = _case(screw, nut, bodies, None, False, False)
         numbers = np.array(_numbers(screw, nut, _rigid_nut(screw, nut, as_array(load)), bodies), dtype=float)
@@ -220,8 +220,8 @@ def ball_loads_of_each(screws: Sequence[BallScrew], axial_loads: Sequence[Force]
         for number, places in enumerate(alike.values()):
             one = together.at(number)
             for place in places:
-                found[place] = one
-    return [one for one in found if one is not None]
+                loads[place] = one
+    return [one for one in loads if one is not None]
 
 
 def _rigid_nut(screw: BallScrew, nut: Nut, axial_load: Force) -> RigidNut:

@@ -342,27 +342,27 @@ def each_by_loads(
 
     The balls of all of them are solved together.
     """
-    found: dict[str, Candidate | InputError] = {}
+    candidates: dict[str, Candidate | InputError] = {}
     under: dict[str, Loaded] = {}
     for number, variant in enumerate(every, start=1):
         try:
             under[variant.label] = loaded(need, case_of_one(variant))
         except InputError as error:
-            found[variant.label] = error
+            candidates[variant.label] = error
         if done is not None:
             done(number, len(every))
     solved = loads_of_each([one.screw for one in under.values()], [one.load for one in under.values()])
     balls = dict(zip(under, solved, strict=True))
     for variant in every:
         label = variant.label
-        if label in found:
+        if label in candidates:
             continue
         try:
             loads = balls[label]
-            found[label] = loads if isinstance(loads, InputError) else by_loads(need, variant, under[label], loads)
+            candidates[label] = loads if isinstance(loads, InputError) else by_loads(need, variant, under[label], loads)
         except InputError as error:
-            found[label] = error
-    return found
+            candidates[label] = error
+    return candidates
 
 
 def judged(need: Need, candidate: Candidate, *, recorded: bool = False) -> Candidate:
